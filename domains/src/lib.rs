@@ -1,0 +1,3 @@
+//! The household: robots, scenes, union domain, task files.
+
+pub mod goal;
