@@ -37,7 +37,9 @@ impl Parser {
                     };
                     at += 1;
                     if untyped_from == list.len() {
-                        self.expected(dash.span, "a name before this", "`a b - type`");
+                        // Generated files have it where there are no objects of a type.
+                        let found = Diagnostic::warning(codes::SYNTAX, dash.span, "a type without a name before it");
+                        self.report.push(found.help("remove it, or write `name - type`"));
                     }
                     let types = types.unwrap_or_default();
                     list[untyped_from..].iter_mut().for_each(|name| name.types = types.clone());
