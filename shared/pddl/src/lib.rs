@@ -1,6 +1,17 @@
 //! PDDL text to a spanned abstract syntax tree, with diagnostics a person or a language model can act on.
 
 pub mod ast;
+pub mod codes;
+pub mod diagnostic;
 pub mod name;
+pub mod parse;
+mod render;
+mod sexpr;
+pub mod source;
+pub mod suggest;
 
+pub use codes::explain;
+pub use diagnostic::{Diagnostic, Parsed, Report, Severity};
 pub use name::{Name, Span};
+pub use parse::{parse_condition, parse_domain, parse_ground_atom, parse_problem};
+pub use source::Source;

@@ -50,6 +50,11 @@ impl Name {
         Name { text: Arc::from(text.as_ref()), span }
     }
 
+    /// A name read at `span` whose spelling is shared with its other occurrences.
+    pub fn shared(text: Arc<str>, span: Span) -> Self {
+        Name { text, span }
+    }
+
     /// The name as it was spelt.
     pub fn as_str(&self) -> &str {
         &self.text
@@ -73,11 +78,16 @@ impl Hash for Name {
         for byte in self.text.bytes() {
             state.write_u8(byte.to_ascii_lowercase());
         }
+        // As `str` does it: ("ab", "c") and ("a", "bc") shall differ.
+        state.write_u8(0xff);
     }
 }
 
 impl Ord for Name {
     fn cmp(&self, other: &Self) -> Ordering {
+        if Arc::ptr_eq(&self.text, &other.text) {
+            return Ordering::Equal;
+        }
         let lower = |b: u8| b.to_ascii_lowercase();
         self.text.bytes().map(lower).cmp(other.text.bytes().map(lower))
     }
