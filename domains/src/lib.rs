@@ -14,6 +14,7 @@ pub mod robots;
 pub mod scene;
 mod scribe;
 pub mod seed;
+pub mod tasks;
 pub mod view;
 pub mod world;
 
