@@ -6,6 +6,7 @@ mod facts;
 pub mod goal;
 pub mod goal_error;
 pub mod kinds;
+pub mod matthor;
 pub mod nearest;
 pub mod place;
 pub mod property;
