@@ -59,6 +59,7 @@ impl Facts {
             self.when(thing.can(affordance), predicate, &[x]);
         }
         self.when(kinds::encloses(kind), "encloses", &[x]);
+        self.when(!thing.can("pickupable"), "fixed", &[x]);
         self.when(thing.can("pickupable") || thing.can("moveable"), "pushable", &[x]);
         self.when(thing.can("breakable") && kinds::shatters(kind), "shatters", &[x]);
         self.when(kinds::cooks_when_cut(kind), "cooks-when-cut", &[x]);
@@ -193,17 +194,14 @@ impl Facts {
     }
 }
 
-/// No closed door is between it and the room.
+/// Furniture is; a movable thing is where it stands on furniture or in open furniture.
 fn exposed(thing: &Thing, things: &[Thing]) -> bool {
-    let mut at = thing;
-    // A scene's nesting is a tree, so it is no deeper than there are things.
-    for _ in things {
-        let parent = at.parent.as_deref().filter(|_| at.can("pickupable"));
-        match parent.and_then(|p| things.iter().find(|t| t.name == p)) {
-            Some(parent) if kinds::encloses(&parent.kind) && !parent.flag("isOpen") => return false,
-            Some(parent) => at = parent,
-            None => return true,
+    let parent = thing.parent.as_deref().filter(|_| thing.can("pickupable"));
+    match parent.and_then(|p| things.iter().find(|t| t.name == p)) {
+        Some(parent) => {
+            let shut = kinds::encloses(&parent.kind) && !parent.flag("isOpen");
+            !parent.can("pickupable") && !shut
         }
+        None => true,
     }
-    true
 }
