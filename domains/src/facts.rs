@@ -135,8 +135,8 @@ impl Facts {
         let running = thing.flag("isToggled");
         let closed_only = kind == "Microwave";
         self.when(thing.can("openable") && !(closed_only && running), "can-open", &[x]);
-        let may_run = !broken && !(closed_only && thing.flag("isOpen"));
-        self.when(thing.can("toggleable") && may_run, "can-switch-on", &[x]);
+        let ajar = closed_only && thing.flag("isOpen");
+        self.when(thing.can("toggleable") && !broken && !ajar, "can-switch-on", &[x]);
 
         let runs = |d: &str| things.iter().any(|t| t.flag("isToggled") && t.controls.iter().any(|c| c == d));
         let in_source = |affordance: &str| {

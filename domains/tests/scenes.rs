@@ -1,4 +1,5 @@
 //! Every scene loads and its start is consistent; so is every state that actions lead to from there.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
 
@@ -151,8 +152,8 @@ fn random_acts_keep_the_world_consistent() {
         let mut lost = BTreeSet::new();
         let mut log = Vec::new();
         let mut done: BTreeMap<String, usize> = BTreeMap::new();
-        for step in 0..4000 {
-            let act = random_act(&world, &mut random, step > 3500);
+        for step in 0..1500 {
+            let act = random_act(&world, &mut random, step > 1300);
             if world.act(&act).is_ok() {
                 let name = act.split_whitespace().next().unwrap_or_default().to_string();
                 if name == "RobotLost" {
