@@ -22,7 +22,7 @@
   (:requirements :strips :typing :equality :negative-preconditions :conditional-effects)
 
   (:types
-    robot thing liquid count - object
+    robot thing liquid count skill - object
     fixture item - thing              ; what stays where it is, and what can be carried
     vessel - item                     ; what can be carried and can hold something
     heater basin - fixture            ; what heats what lies in it, and what a tap runs into
@@ -48,7 +48,9 @@
 
   (:constants
     water coffee wine - liquid
-    none one two three four - count)
+    none one two three four - count
+    GoToObject PickupObject PutObject OpenObject CloseObject SwitchOn SwitchOff SliceObject BreakObject
+    CleanObject DirtyObject FillObject EmptyObject DropHandObject ThrowObject PushObject PullObject - skill)
 
   (:predicates
     ; --- the state that tasks speak of
@@ -88,6 +90,7 @@
     (helping ?h ?r - robot)           ; carries, together with r, what r holds
 
     ; --- never changed
+    (has ?r - robot ?s - skill)       ; so that a whole team can be planned, and watched, in this one domain
     (openable ?x - thing)
     (encloses ?c - thing)             ; its door shuts its contents in (a toilet's lid does not)
     (fixed ?c - thing)                ; furniture, fixtures and the floor
@@ -119,7 +122,7 @@
 
   (:action GoToObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (placed ?x) (mobile ?r))
+    :precondition (and (has ?r GoToObject) (placed ?x) (mobile ?r))
     :effect (and
       (forall (?y - thing) (not (at ?r ?y)))
       (forall (?f - Floor) (at ?r ?f))
@@ -131,7 +134,7 @@
 
   (:action PickupObject
     :parameters (?r - robot ?x - item ?c - thing)
-    :precondition (and (can-lift ?r ?x) (hand-free ?r) (pickupable ?x)
+    :precondition (and (has ?r PickupObject) (can-lift ?r ?x) (hand-free ?r) (pickupable ?x)
                        (in ?x ?c) (at ?r ?x) (at ?r ?c) (exposed ?c) (accessible ?c))
     :effect (and
       (holding ?r ?x)
@@ -150,7 +153,7 @@
 
   (:action PutObject
     :parameters (?r - robot ?x - item ?c - thing)
-    :precondition (and (can-lift ?r ?x) (holding ?r ?x)
+    :precondition (and (has ?r PutObject) (can-lift ?r ?x) (holding ?r ?x)
                        (accepts ?c ?x) (accessible ?c) (exposed ?c) (at ?r ?c))
     :effect (and
       (not (holding ?r ?x))
@@ -184,7 +187,7 @@
   ; Lets go where the robot stands: on the floor. Nothing breaks.
   (:action DropHandObject
     :parameters (?r - robot ?x - item)
-    :precondition (and (can-lift ?r ?x) (holding ?r ?x))
+    :precondition (and (has ?r DropHandObject) (can-lift ?r ?x) (holding ?r ?x))
     :effect (and
       (not (holding ?r ?x))
       (forall (?f - Floor) (in ?x ?f))
@@ -202,7 +205,7 @@
   ; Throws it across the room: it ends on the floor, out of reach, and breaks if it can.
   (:action ThrowObject
     :parameters (?r - robot ?x - item)
-    :precondition (and (can-lift ?r ?x) (holding ?r ?x))
+    :precondition (and (has ?r ThrowObject) (can-lift ?r ?x) (holding ?r ?x))
     :effect (and
       (not (holding ?r ?x))
       (forall (?f - Floor) (in ?x ?f))
@@ -228,12 +231,12 @@
 
   (:action PushObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (pushable ?x) (at ?r ?x) (exposed ?x))
+    :precondition (and (has ?r PushObject) (pushable ?x) (at ?r ?x) (exposed ?x))
     :effect (moved ?x))
 
   (:action PullObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (pushable ?x) (at ?r ?x) (exposed ?x))
+    :precondition (and (has ?r PullObject) (pushable ?x) (at ?r ?x) (exposed ?x))
     :effect (moved ?x))
 
   ; ---------------------------------------------------------------- carrying together
@@ -242,7 +245,7 @@
 
   (:action SupportObject
     :parameters (?h - robot ?x - item)
-    :precondition (and (can-help-lift ?h ?x) (hand-free ?h) (mobile ?h) (pickupable ?x)
+    :precondition (and (has ?h PickupObject) (can-help-lift ?h ?x) (hand-free ?h) (mobile ?h) (pickupable ?x)
                        (at ?h ?x) (exposed ?x))
     :effect (and
       (supporting ?h ?x)
@@ -255,7 +258,7 @@
 
   (:action PickupTogether
     :parameters (?r ?h - robot ?x - item ?c - thing)
-    :precondition (and (can-lift-together ?r ?h ?x) (supporting ?h ?x)
+    :precondition (and (has ?r PickupObject) (can-lift-together ?r ?h ?x) (supporting ?h ?x)
                        (hand-free ?r) (mobile ?r) (pickupable ?x)
                        (in ?x ?c) (at ?r ?x) (at ?r ?c) (exposed ?c) (accessible ?c))
     :effect (and
@@ -277,7 +280,8 @@
 
   (:action PutTogether
     :parameters (?r ?h - robot ?x - item ?c - thing)
-    :precondition (and (can-lift-together ?r ?h ?x) (holding ?r ?x) (helping ?h ?r) (supporting ?h ?x)
+    :precondition (and (has ?r PutObject)
+                       (can-lift-together ?r ?h ?x) (holding ?r ?x) (helping ?h ?r) (supporting ?h ?x)
                        (accepts ?c ?x) (accessible ?c) (exposed ?c) (at ?r ?c))
     :effect (and
       (not (holding ?r ?x))
@@ -322,7 +326,7 @@
 
   (:action OpenObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (openable ?x) (can-open ?x) (at ?r ?x) (exposed ?x) (not (open ?x)))
+    :precondition (and (has ?r OpenObject) (openable ?x) (can-open ?x) (at ?r ?x) (exposed ?x) (not (open ?x)))
     :effect (and
       (open ?x)
       (when (runs-closed ?x) (not (can-switch-on ?x)))
@@ -331,7 +335,7 @@
 
   (:action CloseObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (openable ?x) (at ?r ?x) (exposed ?x) (open ?x))
+    :precondition (and (has ?r CloseObject) (openable ?x) (at ?r ?x) (exposed ?x) (open ?x))
     :effect (and
       (not (open ?x))
       (when (runs-closed ?x) (can-switch-on ?x))
@@ -340,7 +344,8 @@
 
   (:action SwitchOn
     :parameters (?r - robot ?x - thing)
-    :precondition (and (toggleable ?x) (can-switch-on ?x) (at ?r ?x) (exposed ?x) (not (toggled ?x)))
+    :precondition (and (has ?r SwitchOn)
+                       (toggleable ?x) (can-switch-on ?x) (at ?r ?x) (exposed ?x) (not (toggled ?x)))
     :effect (and
       (toggled ?x)
       (when (runs-closed ?x) (not (can-open ?x)))
@@ -365,7 +370,7 @@
 
   (:action SwitchOff
     :parameters (?r - robot ?x - thing)
-    :precondition (and (toggleable ?x) (at ?r ?x) (exposed ?x) (toggled ?x))
+    :precondition (and (has ?r SwitchOff) (toggleable ?x) (at ?r ?x) (exposed ?x) (toggled ?x))
     :effect (and
       (not (toggled ?x))
       (when (runs-closed ?x) (can-open ?x))
@@ -377,7 +382,8 @@
 
   (:action SliceObject
     :parameters (?r - robot ?x - item)
-    :precondition (and (sliceable ?x) (armed ?r) (at ?r ?x) (exposed ?x) (not (sliced ?x)) (not (broken ?x)))
+    :precondition (and (has ?r SliceObject)
+                       (sliceable ?x) (armed ?r) (at ?r ?x) (exposed ?x) (not (sliced ?x)) (not (broken ?x)))
     :effect (and
       (sliced ?x)
       (when (cooks-when-cut ?x) (cookable ?x))
@@ -386,7 +392,8 @@
 
   (:action BreakObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (breakable ?x) (at ?r ?x) (exposed ?x) (not (broken ?x)) (not (sliced ?x)))
+    :precondition (and (has ?r BreakObject)
+                       (breakable ?x) (at ?r ?x) (exposed ?x) (not (broken ?x)) (not (sliced ?x)))
     :effect (and
       (broken ?x)
       (not (toggled ?x))
@@ -400,22 +407,23 @@
 
   (:action CleanObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (dirtyable ?x) (dirty ?x) (at ?r ?x) (exposed ?x))
+    :precondition (and (has ?r CleanObject) (dirtyable ?x) (dirty ?x) (at ?r ?x) (exposed ?x))
     :effect (not (dirty ?x)))
 
   (:action DirtyObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (dirtyable ?x) (at ?r ?x) (exposed ?x) (not (dirty ?x)))
+    :precondition (and (has ?r DirtyObject) (dirtyable ?x) (at ?r ?x) (exposed ?x) (not (dirty ?x)))
     :effect (dirty ?x))
 
   (:action FillObject
     :parameters (?r - robot ?x - thing ?l - liquid)
-    :precondition (and (fillable ?x) (at ?r ?x) (exposed ?x) (not (filled ?x)) (not (broken ?x)))
+    :precondition (and (has ?r FillObject)
+                       (fillable ?x) (at ?r ?x) (exposed ?x) (not (filled ?x)) (not (broken ?x)))
     :effect (and (filled ?x) (filled-with ?x ?l)))
 
   (:action EmptyObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (fillable ?x) (at ?r ?x) (exposed ?x) (filled ?x))
+    :precondition (and (has ?r EmptyObject) (fillable ?x) (at ?r ?x) (exposed ?x) (filled ?x))
     :effect (and (not (filled ?x)) (forall (?l - liquid) (not (filled-with ?x ?l)))))
 
   ; ---------------------------------------------------------------- nobody's skill

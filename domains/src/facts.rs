@@ -175,6 +175,9 @@ impl Facts {
         for floor in things.iter().filter(|t| t.kind == "Floor") {
             self.add("at", &[r, &floor.name]);
         }
+        for skill in &robot.skills {
+            self.add("has", &[r, skill]);
+        }
         self.add("hand-free", &[r]);
         self.add("mobile", &[r]);
         self.when(rules.knife_free, "armed", &[r]);

@@ -181,11 +181,15 @@ pub fn setup_with(
     if let Some(specs) = objects {
         replace_movables(&mut things, specs, &scene.scene, seed)?;
     }
-    if let Some(robot) = team.iter().find(|r| things.iter().any(|t| t.name.eq_ignore_ascii_case(&r.name))) {
-        let what = "an object of the scene has this name; choose another".to_string();
+    let domain = robots::union_domain().clone();
+    let taken = |name: &str| {
+        things.iter().any(|t| t.name.eq_ignore_ascii_case(name))
+            || domain.constants.iter().any(|c| c.name == *name)
+    };
+    if let Some(robot) = team.iter().find(|r| taken(&r.name)) {
+        let what = "a thing of the world has this name; choose another".to_string();
         return Err(HouseError::BadRobot { robot: robot.name.clone(), what });
     }
-    let domain = robots::union_domain().clone();
     let robot_objects = team.iter().map(|r| TypedName::new(&r.name, "robot"));
     let objects = robot_objects.chain(things.iter().map(|t| TypedName::new(&t.name, &t.kind))).collect();
     let members = team

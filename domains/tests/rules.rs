@@ -39,6 +39,14 @@ fn a_robot_acts_only_on_what_it_stands_at() {
 }
 
 #[test]
+fn a_robot_acts_within_its_skills() {
+    let team = lamma_domains::robots::find("robot24").unwrap().clone(); // goes and switches
+    let mut w = World::new("FloorPlan6", &[team], Some(KITCHEN));
+    w.run("GoToObject robot24 LightSwitch_1\nSwitchOff robot24 LightSwitch_1\nGoToObject robot24 Fridge_1");
+    w.refuses("OpenObject robot24 Fridge_1", "has robot24 openobject");
+}
+
+#[test]
 fn a_hand_holds_one_thing() {
     let mut w = kitchen();
     w.run("GoToObject r1 Apple_1\nPickupObject r1 Apple_1 CounterTop_1\nGoToObject r1 Potato_1");

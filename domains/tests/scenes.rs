@@ -15,7 +15,7 @@ use lamma_domains::world::setup;
 #[test]
 fn the_domain_has_the_types_of_the_table() {
     let table: BTreeSet<String> = Kinds::get().names().map(str::to_lowercase).collect();
-    let ours = ["robot", "thing", "liquid", "count", "fixture", "item", "vessel", "heater", "basin"];
+    let ours = ["robot", "thing", "liquid", "count", "skill", "fixture", "item", "vessel", "heater", "basin"];
     let domain: BTreeSet<String> = union_domain()
         .types
         .iter()

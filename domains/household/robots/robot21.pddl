@@ -1,7 +1,7 @@
 (define (domain household)
   (:requirements :strips :typing :equality :negative-preconditions :conditional-effects)
   (:types
-    robot thing liquid count - object
+    robot thing liquid count skill - object
     fixture item - thing
     vessel - item
     heater basin ArmChair Bed Blinds Cabinet Chair CoffeeTable CounterTop Curtains Desk DeskLamp Desktop DiningTable DogBed Drawer Dresser Faucet Floor FloorLamp Fridge GarbageBag GarbageCan HandTowelHolder HousePlant LaundryHamper LightSwitch Mirror Ottoman Painting Poster RoomDecor Safe Shelf ShelvingUnit ShowerCurtain ShowerDoor ShowerGlass ShowerHead SideTable Sofa Stool StoveKnob TVStand TargetCircle Television Toilet ToiletPaperHanger TowelHolder VacuumCleaner Window - fixture
@@ -19,7 +19,8 @@
     EggCracked - Egg)
   (:constants
     water coffee wine - liquid
-    none one two three four - count)
+    none one two three four - count
+    GoToObject PickupObject PutObject OpenObject CloseObject SwitchOn SwitchOff SliceObject BreakObject CleanObject DirtyObject FillObject EmptyObject DropHandObject ThrowObject PushObject PullObject - skill)
   (:predicates
     (at ?r - robot ?x - thing)
     (holding ?r - robot ?x - item)
@@ -53,6 +54,7 @@
     (mobile ?r - robot)
     (supporting ?h - robot ?x - item)
     (helping ?h ?r - robot)
+    (has ?r - robot ?s - skill)
     (openable ?x - thing)
     (encloses ?c - thing)
     (fixed ?c - thing)
@@ -81,7 +83,7 @@
     (next ?n ?m - count))
   (:action GoToObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (placed ?x) (mobile ?r))
+    :precondition (and (has ?r GoToObject) (placed ?x) (mobile ?r))
     :effect (and
       (forall (?y - thing) (not (at ?r ?y)))
       (forall (?f - Floor) (at ?r ?f))
@@ -90,7 +92,7 @@
       (forall (?y - item) (when (in ?y ?x) (at ?r ?y)))))
   (:action DropHandObject
     :parameters (?r - robot ?x - item)
-    :precondition (and (can-lift ?r ?x) (holding ?r ?x))
+    :precondition (and (has ?r DropHandObject) (can-lift ?r ?x) (holding ?r ?x))
     :effect (and
       (not (holding ?r ?x))
       (forall (?f - Floor) (in ?x ?f))
@@ -111,15 +113,15 @@
           (armed ?r)))))
   (:action PushObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (pushable ?x) (at ?r ?x) (exposed ?x))
+    :precondition (and (has ?r PushObject) (pushable ?x) (at ?r ?x) (exposed ?x))
     :effect (moved ?x))
   (:action PullObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (pushable ?x) (at ?r ?x) (exposed ?x))
+    :precondition (and (has ?r PullObject) (pushable ?x) (at ?r ?x) (exposed ?x))
     :effect (moved ?x))
   (:action OpenObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (openable ?x) (can-open ?x) (at ?r ?x) (exposed ?x) (not (open ?x)))
+    :precondition (and (has ?r OpenObject) (openable ?x) (can-open ?x) (at ?r ?x) (exposed ?x) (not (open ?x)))
     :effect (and
       (open ?x)
       (when (runs-closed ?x) (not (can-switch-on ?x)))
@@ -127,7 +129,7 @@
       (forall (?y - item) (when (and (encloses ?x) (fixed ?x) (in ?y ?x)) (exposed ?y)))))
   (:action CloseObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (openable ?x) (at ?r ?x) (exposed ?x) (open ?x))
+    :precondition (and (has ?r CloseObject) (openable ?x) (at ?r ?x) (exposed ?x) (open ?x))
     :effect (and
       (not (open ?x))
       (when (runs-closed ?x) (can-switch-on ?x))
@@ -135,7 +137,13 @@
       (forall (?y - item) (when (and (encloses ?x) (fixed ?x) (in ?y ?x)) (not (exposed ?y))))))
   (:action SwitchOn
     :parameters (?r - robot ?x - thing)
-    :precondition (and (toggleable ?x) (can-switch-on ?x) (at ?r ?x) (exposed ?x) (not (toggled ?x)))
+    :precondition (and
+      (has ?r SwitchOn)
+      (toggleable ?x)
+      (can-switch-on ?x)
+      (at ?r ?x)
+      (exposed ?x)
+      (not (toggled ?x)))
     :effect (and
       (toggled ?x)
       (when (runs-closed ?x) (not (can-open ?x)))
@@ -167,7 +175,7 @@
           (and (filled ?y) (filled-with ?y water))))))
   (:action SwitchOff
     :parameters (?r - robot ?x - thing)
-    :precondition (and (toggleable ?x) (at ?r ?x) (exposed ?x) (toggled ?x))
+    :precondition (and (has ?r SwitchOff) (toggleable ?x) (at ?r ?x) (exposed ?x) (toggled ?x))
     :effect (and
       (not (toggled ?x))
       (when (runs-closed ?x) (can-open ?x))
@@ -178,7 +186,14 @@
       (forall (?b - basin) (when (fills ?x ?b) (not (rinsing ?b))))))
   (:action SliceObject
     :parameters (?r - robot ?x - item)
-    :precondition (and (sliceable ?x) (armed ?r) (at ?r ?x) (exposed ?x) (not (sliced ?x)) (not (broken ?x)))
+    :precondition (and
+      (has ?r SliceObject)
+      (sliceable ?x)
+      (armed ?r)
+      (at ?r ?x)
+      (exposed ?x)
+      (not (sliced ?x))
+      (not (broken ?x)))
     :effect (and
       (sliced ?x)
       (when (cooks-when-cut ?x) (cookable ?x))
@@ -186,7 +201,13 @@
       (forall (?c - thing) (when (accepts-cut ?c ?x) (accepts ?c ?x)))))
   (:action BreakObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (breakable ?x) (at ?r ?x) (exposed ?x) (not (broken ?x)) (not (sliced ?x)))
+    :precondition (and
+      (has ?r BreakObject)
+      (breakable ?x)
+      (at ?r ?x)
+      (exposed ?x)
+      (not (broken ?x))
+      (not (sliced ?x)))
     :effect (and
       (broken ?x)
       (not (toggled ?x))

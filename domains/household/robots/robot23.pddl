@@ -1,7 +1,7 @@
 (define (domain household)
   (:requirements :strips :typing :equality :negative-preconditions :conditional-effects)
   (:types
-    robot thing liquid count - object
+    robot thing liquid count skill - object
     fixture item - thing
     vessel - item
     heater basin ArmChair Bed Blinds Cabinet Chair CoffeeTable CounterTop Curtains Desk DeskLamp Desktop DiningTable DogBed Drawer Dresser Faucet Floor FloorLamp Fridge GarbageBag GarbageCan HandTowelHolder HousePlant LaundryHamper LightSwitch Mirror Ottoman Painting Poster RoomDecor Safe Shelf ShelvingUnit ShowerCurtain ShowerDoor ShowerGlass ShowerHead SideTable Sofa Stool StoveKnob TVStand TargetCircle Television Toilet ToiletPaperHanger TowelHolder VacuumCleaner Window - fixture
@@ -19,7 +19,8 @@
     EggCracked - Egg)
   (:constants
     water coffee wine - liquid
-    none one two three four - count)
+    none one two three four - count
+    GoToObject PickupObject PutObject OpenObject CloseObject SwitchOn SwitchOff SliceObject BreakObject CleanObject DirtyObject FillObject EmptyObject DropHandObject ThrowObject PushObject PullObject - skill)
   (:predicates
     (at ?r - robot ?x - thing)
     (holding ?r - robot ?x - item)
@@ -53,6 +54,7 @@
     (mobile ?r - robot)
     (supporting ?h - robot ?x - item)
     (helping ?h ?r - robot)
+    (has ?r - robot ?s - skill)
     (openable ?x - thing)
     (encloses ?c - thing)
     (fixed ?c - thing)
@@ -81,7 +83,7 @@
     (next ?n ?m - count))
   (:action GoToObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (placed ?x) (mobile ?r))
+    :precondition (and (has ?r GoToObject) (placed ?x) (mobile ?r))
     :effect (and
       (forall (?y - thing) (not (at ?r ?y)))
       (forall (?f - Floor) (at ?r ?f))
@@ -90,7 +92,7 @@
       (forall (?y - item) (when (in ?y ?x) (at ?r ?y)))))
   (:action OpenObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (openable ?x) (can-open ?x) (at ?r ?x) (exposed ?x) (not (open ?x)))
+    :precondition (and (has ?r OpenObject) (openable ?x) (can-open ?x) (at ?r ?x) (exposed ?x) (not (open ?x)))
     :effect (and
       (open ?x)
       (when (runs-closed ?x) (not (can-switch-on ?x)))
@@ -98,7 +100,7 @@
       (forall (?y - item) (when (and (encloses ?x) (fixed ?x) (in ?y ?x)) (exposed ?y)))))
   (:action CloseObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (openable ?x) (at ?r ?x) (exposed ?x) (open ?x))
+    :precondition (and (has ?r CloseObject) (openable ?x) (at ?r ?x) (exposed ?x) (open ?x))
     :effect (and
       (not (open ?x))
       (when (runs-closed ?x) (can-switch-on ?x))
