@@ -1,8 +1,9 @@
 //! Where movable things start when nobody has measured it: by rule and seed.
 //!
 //! A thing goes to a place where AI2-THOR and ALFRED say its type is found. Open surfaces are three times as
-//! likely as drawers and cupboards; eggs lie in the fridge; appliances, the bin and the toilet start empty; a
-//! towel or paper holder takes one thing; the floor is for what fits nowhere else.
+//! likely as drawers and cupboards; eggs lie in the fridge; appliances, the bin, the toilet and the bathtub start
+//! empty; beds and seats carry pillows and teddy bears only; a towel or paper holder takes one thing; the floor
+//! is for what fits nowhere else.
 
 use std::collections::BTreeMap;
 
@@ -59,7 +60,8 @@ fn chance(receptacle: &str, kind: &str, asked_for: bool) -> usize {
         ("Floor", _) => usize::from(kinds.accepts("Floor", kind)),
         ("Fridge", "Egg") => 1_000_000,
         ("GarbageCan" | "Toilet" | "Microwave" | "CoffeeMachine" | "Toaster" | "StoveBurner", _) => 0,
-        ("Chair" | "Stool", _) => 0,
+        ("Chair" | "Stool" | "Bathtub", _) => 0,
+        ("Bed" | "Sofa" | "ArmChair" | "Ottoman", _) if !matches!(kind, "Pillow" | "TeddyBear") => 0,
         _ if !kinds.usual(receptacle, kind) => 0,
         _ if encloses(receptacle) => 1_000,
         _ => 3_000,
