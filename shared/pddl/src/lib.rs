@@ -3,8 +3,10 @@
 pub mod ast;
 pub mod codes;
 pub mod diagnostic;
+mod layout;
 pub mod name;
 pub mod parse;
+mod print;
 mod render;
 mod sexpr;
 pub mod source;

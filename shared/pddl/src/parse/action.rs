@@ -46,7 +46,11 @@ impl Parser {
         known: &[&'static str],
     ) -> Option<Fields<'t, 's>> {
         let Some(name) = list.items.get(1) else {
-            self.expected(list.place(), "a name", "`(:action NAME :parameters (…) :precondition (…) :effect (…))`");
+            self.expected(
+                list.place(),
+                "a name",
+                "`(:action NAME :parameters (…) :precondition (…) :effect (…))`",
+            );
             return None;
         };
         let name = self.name(name, "the name of the action")?;
@@ -57,7 +61,8 @@ impl Parser {
                 rest = after;
                 continue;
             };
-            let values = after.iter().take_while(|item| !item.as_word().is_some_and(|word| word.is_keyword()));
+            let values =
+                after.iter().take_while(|item| !item.as_word().is_some_and(|word| word.is_keyword()));
             let (values, next) = after.split_at(values.count());
             rest = next;
             if keyword == ":agent" {

@@ -89,7 +89,10 @@ impl Parser {
     }
 
     /// The variables and the body of `(forall (?x - t) …)`.
-    pub(super) fn quantifier<'t, 's>(&mut self, list: &'t List<'s>) -> Option<(Vec<TypedName>, &'t Sexpr<'s>)> {
+    pub(super) fn quantifier<'t, 's>(
+        &mut self,
+        list: &'t List<'s>,
+    ) -> Option<(Vec<TypedName>, &'t Sexpr<'s>)> {
         let form = "`(forall (?x - type) …)`, with one formula after the variables";
         let [params, body] = self.operands(list, "variables and one formula", form)?;
         let Some(params) = params.as_list() else {

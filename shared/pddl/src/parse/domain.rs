@@ -67,7 +67,9 @@ impl Parser {
                         requirements.push(self.intern(word.text, word.span));
                     }
                 }
-                None => self.expected(item.place(), "a requirement", "requirements begin with a colon: `:strips`"),
+                None => {
+                    self.expected(item.place(), "a requirement", "requirements begin with a colon: `:strips`")
+                }
             }
         }
         requirements
@@ -91,7 +93,8 @@ impl Parser {
         }
         let names: Vec<Name> = known.iter().map(Name::new).collect();
         let help = did_you_mean(head.text, &names, format!("the sections are {}", known.join(" ")));
-        let found = Diagnostic::error(codes::UNKNOWN_SECTION, head.span, format!("unknown section `{}`", head.text));
+        let found =
+            Diagnostic::error(codes::UNKNOWN_SECTION, head.span, format!("unknown section `{}`", head.text));
         self.report.push(found.help(help));
     }
 

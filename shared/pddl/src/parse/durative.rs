@@ -31,7 +31,8 @@ impl Parser {
             }
         };
         let mut conditions = Vec::new();
-        let conditions_read = fields.get(":condition").is_none_or(|c| self.timed_condition(c, &mut conditions));
+        let conditions_read =
+            fields.get(":condition").is_none_or(|c| self.timed_condition(c, &mut conditions));
         let mut effects = Vec::new();
         let effects_read = fields.get(":effect").is_none_or(|e| self.timed_effect(e, &mut effects));
         let (precondition, effect) = flatten(conditions, effects);
@@ -55,7 +56,8 @@ impl Parser {
         };
         if list.head_is("and") {
             let bounds: Vec<&Sexpr<'_>> = list.rest().iter().collect();
-            let lower = bounds.iter().find(|b| b.as_list().is_some_and(|b| b.head_is(">=") || b.head_is("=")));
+            let lower =
+                bounds.iter().find(|b| b.as_list().is_some_and(|b| b.head_is(">=") || b.head_is("=")));
             return match lower.or(bounds.first()) {
                 Some(bound) => self.duration(bound),
                 None => {

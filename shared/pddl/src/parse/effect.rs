@@ -57,7 +57,8 @@ impl Parser {
         if let Some(op) = assign_op(head)
             && (has_list || list.rest().last().and_then(Sexpr::as_word).is_some_and(|word| word.is_number()))
         {
-            let [function, value] = self.operands(list, "a function and a number", "`(increase (fuel ?t) 1)`")?;
+            let [function, value] =
+                self.operands(list, "a function and a number", "`(increase (fuel ?t) 1)`")?;
             let (function, value) = (self.function_term(function), self.numeric(value));
             return Some(Effect::Assign(op, function?, value?));
         }

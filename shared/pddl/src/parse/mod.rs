@@ -93,7 +93,9 @@ impl Parser {
         match top {
             [] => self.error(codes::SYNTAX, Span::NONE, format!("the text is empty; expected {what}")),
             [only] => return Some(only),
-            [_, second, ..] => self.error(codes::TRAILING, second.place(), "there is more text than one expression"),
+            [_, second, ..] => {
+                self.error(codes::TRAILING, second.place(), "there is more text than one expression")
+            }
         }
         None
     }
@@ -123,7 +125,8 @@ impl Parser {
 
     /// A variable, without its question mark.
     fn variable(&mut self, sexpr: &Sexpr<'_>) -> Option<Name> {
-        let Some((word, text)) = sexpr.as_word().and_then(|word| Some((word, word.text.strip_prefix('?')?))) else {
+        let Some((word, text)) = sexpr.as_word().and_then(|word| Some((word, word.text.strip_prefix('?')?)))
+        else {
             self.expected(sexpr.place(), "a variable", "variables begin with `?`, as in `?x`");
             return None;
         };
@@ -155,7 +158,8 @@ impl Parser {
         if let Some((offset, bad)) = text.char_indices().find(|(_, c)| !allowed(*c)) {
             let start = word.span.end as usize - text.len() + offset;
             let place = Span::new(start, start + bad.len_utf8());
-            let found = Diagnostic::error(codes::BAD_CHARACTER, place, format!("`{bad}` cannot be part of a name"));
+            let found =
+                Diagnostic::error(codes::BAD_CHARACTER, place, format!("`{bad}` cannot be part of a name"));
             self.report.push(found.help("use ASCII letters, digits, `-` and `_`; comments begin with `;`"));
             return None;
         }
@@ -167,21 +171,30 @@ impl Parser {
     }
 
     /// The one `(define …)` at the top level and its header, such as `(domain NAME)`.
-    fn define<'t, 's>(&mut self, top: &'t [Sexpr<'s>], kind: &str, other: &str) -> Option<(Name, &'t [Sexpr<'s>])> {
+    fn define<'t, 's>(
+        &mut self,
+        top: &'t [Sexpr<'s>],
+        kind: &str,
+        other: &str,
+    ) -> Option<(Name, &'t [Sexpr<'s>])> {
         let form = format!("a {kind} file has the form `(define ({kind} NAME) …)`");
         let Some((first, more)) = top.split_first() else {
-            let found = Diagnostic::error(codes::WRONG_FILE, Span::NONE, format!("the text is empty, not a {kind}"));
+            let found =
+                Diagnostic::error(codes::WRONG_FILE, Span::NONE, format!("the text is empty, not a {kind}"));
             self.report.push(found.help(form));
             return None;
         };
         let Some(define) = first.as_list().filter(|list| list.head_is("define")) else {
-            let found = Diagnostic::error(codes::WRONG_FILE, first.place(), format!("this is not a PDDL {kind}"));
+            let found =
+                Diagnostic::error(codes::WRONG_FILE, first.place(), format!("this is not a PDDL {kind}"));
             self.report.push(found.label("expected `(define`").help(form));
             return None;
         };
         if let Some(next) = more.first() {
-            let found = Diagnostic::error(codes::TRAILING, next.place(), "there is more text after the definition");
-            let found = found.label("outside of `(define …)`").also(define.close(), "the definition ends here");
+            let found =
+                Diagnostic::error(codes::TRAILING, next.place(), "there is more text after the definition");
+            let found =
+                found.label("outside of `(define …)`").also(define.close(), "the definition ends here");
             self.report.push(found.help("remove it, or move the `)` that closes the definition behind it"));
         }
         let header = define.items.get(1).and_then(Sexpr::as_list);

@@ -37,7 +37,10 @@ impl Parser {
                     };
                     at += 1;
                     if untyped_from == list.len() {
-                        self.expected(dash.span, "a name before this", "`a b - type`");
+                        // Generated files have it where there are no objects of a type.
+                        let found =
+                            Diagnostic::warning(codes::SYNTAX, dash.span, "a type without a name before it");
+                        self.report.push(found.help("remove it, or write `name - type`"));
                     }
                     let types = types.unwrap_or_default();
                     list[untyped_from..].iter_mut().for_each(|name| name.types = types.clone());
@@ -97,7 +100,9 @@ impl Parser {
             owner = Private::Agent(agent);
             items = &items[1..];
         }
-        if let Some(nested) = items.iter().find(|item| item.as_list().is_some_and(|list| list.head_is(":private"))) {
+        if let Some(nested) =
+            items.iter().find(|item| item.as_list().is_some_and(|list| list.head_is(":private")))
+        {
             self.expected(nested.place(), "no `(:private` inside another", "write them one after the other");
             return;
         }
@@ -120,7 +125,9 @@ impl Parser {
                     }
                     at += 1;
                 }
-                Sexpr::List(list) if list.head_is(":private") => self.private_signatures(list, functions, &mut signatures),
+                Sexpr::List(list) if list.head_is(":private") => {
+                    self.private_signatures(list, functions, &mut signatures)
+                }
                 Sexpr::List(list) if !list.items.is_empty() => signatures.extend(self.signature(list)),
                 _ => {
                     self.expected(item.place(), "a declaration in parentheses", "`(name ?parameter - type)`");
@@ -155,7 +162,9 @@ impl Parser {
                 self.name(agent_name, "an agent").map_or(Private::Owner, Private::Agent)
             };
         }
-        if let Some(nested) = inside.iter().find(|item| item.as_list().is_some_and(|list| list.head_is(":private"))) {
+        if let Some(nested) =
+            inside.iter().find(|item| item.as_list().is_some_and(|list| list.head_is(":private")))
+        {
             self.expected(nested.place(), "no `(:private` inside another", "write them one after the other");
             return;
         }
@@ -167,6 +176,7 @@ impl Parser {
 /// How often a word stands in a list or in the lists directly inside it.
 fn occurrences(items: &[Sexpr<'_>], text: &str) -> usize {
     let is_it = |item: &Sexpr<'_>| item.as_word().is_some_and(|word| word.is(text));
-    let inside = |item: &Sexpr<'_>| item.as_list().map_or(0, |list| list.items.iter().filter(|i| is_it(i)).count());
+    let inside =
+        |item: &Sexpr<'_>| item.as_list().map_or(0, |list| list.items.iter().filter(|i| is_it(i)).count());
     items.iter().map(|item| usize::from(is_it(item)) + inside(item)).sum()
 }
