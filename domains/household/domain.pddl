@@ -1,0 +1,469 @@
+; The household world: what AI2-THOR 5.0 lets agents do to the objects of a room, as facts.
+;
+; This is the union of all robots: each robot's own domain (robots/*.pddl) is this one without the actions
+; it has no skill for. Who reads it first should know five things.
+;
+; 1. Where robots are. (at r x) means that r stands within reach of x. Going to x brings r to x, to the
+;    container x lies in and to whatever lies in x. Every robot is always at the floor it stands on.
+; 2. Where things are. (in x c) is direct: x lies in or on c. What is held is nowhere: nobody stands at it.
+; 3. What doors do. A thing is `exposed` while no closed door is between it and the room; a container is
+;    `accessible` while things can be put into it. Opening and closing maintain both, so that no action
+;    needs a disjunction. The same is true of `placed`, `pickupable`, `can-open`, `can-switch-on`,
+;    `heating`, `cooling`, `rinsing`, `armed`: facts that actions keep, never goals.
+; 4. What appliances do. They act on what lies in them, and on what lies in that (an egg in a pan on a
+;    burner), at the moment they are switched on and whenever something is put there while they are on.
+; 5. What cannot be undone. Slicing, breaking, cooking. A sliced object keeps its name and its type.
+;
+; How far nesting is followed: doors and hands reach three levels (a spoon in a mug in a box), heat, cold and
+; water two.
+
+(define (domain household)
+  (:requirements :strips :typing :equality :negative-preconditions :conditional-effects)
+
+  (:types
+    robot thing liquid count - object
+    fixture item - thing              ; what stays where it is, and what can be carried
+    vessel - item                     ; what can be carried and can hold something
+    ; One type for each object type of AI2-THOR 5.0.
+    ArmChair Bathtub Bed Blinds Cabinet Chair CoffeeMachine CoffeeTable CounterTop Curtains Desk
+    DeskLamp Desktop DiningTable DogBed Drawer Dresser Faucet Floor FloorLamp Fridge GarbageBag
+    GarbageCan HandTowelHolder HousePlant LaundryHamper LightSwitch Microwave Mirror Ottoman
+    Painting Poster RoomDecor Safe Shelf ShelvingUnit ShowerCurtain ShowerDoor ShowerGlass
+    ShowerHead SideTable Sink Sofa Stool StoveBurner StoveKnob TVStand TargetCircle Television
+    Toaster Toilet ToiletPaperHanger TowelHolder VacuumCleaner Window - fixture
+    AlarmClock AluminumFoil Apple BaseballBat BasketBall Book Boots Bottle Bread ButterKnife CD
+    Candle CellPhone Cloth CreditCard DishSponge Dumbbell Egg Fork HandTowel Kettle KeyChain Knife
+    Ladle Laptop Lettuce Newspaper PaperTowelRoll Pen Pencil PepperShaker Pillow Plunger Potato
+    RemoteControl SaltShaker ScrubBrush SoapBar SoapBottle Spatula Spoon SprayBottle Statue
+    TableTopDecor TeddyBear TennisRacket TissueBox ToiletPaper Tomato Towel Vase Watch WateringCan
+    WineBottle - item
+    Bowl Box Cup Footstool Mug Pan Plate Pot - vessel
+    SinkBasin - Sink BathtubBasin - Bathtub
+    AppleSliced - Apple BreadSliced - Bread LettuceSliced - Lettuce PotatoSliced - Potato
+    TomatoSliced - Tomato EggCracked - Egg)
+
+  (:constants
+    water coffee wine - liquid
+    none one two three four - count)
+
+  (:predicates
+    ; --- the state that tasks speak of
+    (at ?r - robot ?x - thing)
+    (holding ?r - robot ?x - item)
+    (in ?x - thing ?c - thing)
+    (open ?x - thing)
+    (toggled ?x - thing)
+    (sliced ?x - thing)
+    (broken ?x - thing)
+    (cooked ?x - thing)
+    (dirty ?x - thing)
+    (filled ?x - thing)
+    (filled-with ?x - thing ?l - liquid)
+    (hot ?x - thing)                  ; neither hot nor cold: room temperature
+    (cold ?x - thing)
+    (used-up ?x - thing)
+    (moved ?x - thing)                ; pushed or pulled since the start
+
+    ; --- kept by the actions
+    (placed ?x - thing)               ; at a place; false while it, or what it lies in, is held
+    (exposed ?x - thing)              ; no closed door between it and the room
+    (accessible ?c - thing)           ; has no door, or an open one
+    (pickupable ?x - thing)           ; not once it is in pieces
+    (can-open ?x - thing)             ; not while it runs, for a microwave
+    (can-switch-on ?x - thing)        ; not while open, for a microwave; not once broken
+    (cookable ?x - thing)             ; bread once sliced, an egg once cracked
+    (accepts ?c ?x - thing)           ; a toaster takes bread once sliced
+    (heating ?c - thing)              ; what is put here becomes hot, and cooks
+    (cooling ?c - thing)              ; what is put here becomes cold
+    (rinsing ?c - thing)              ; what is put here becomes clean and full of water
+    (hand-free ?r - robot)            ; at least one hand is free
+    (free-hands ?r - robot ?n - count) ; how many, for robots with several
+    (armed ?r - robot)                ; may slice: holds a knife, or the task asks for none
+    (mobile ?r - robot)               ; not bound to another robot by a joint lift
+    (supporting ?h - robot ?x - item) ; offers a hand for a joint lift of x
+    (helping ?h ?r - robot)           ; carries, together with r, what r holds
+
+    ; --- never changed
+    (openable ?x - thing)
+    (encloses ?c - thing)             ; its door shuts its contents in (a toilet's lid does not)
+    (toggleable ?x - thing)
+    (sliceable ?x - thing)
+    (breakable ?x - thing)
+    (shatters ?x - thing)             ; broken, it is in pieces and cannot be picked up
+    (dirtyable ?x - thing)
+    (fillable ?x - thing)
+    (pushable ?x - thing)
+    (receptacle ?c - thing)
+    (heat-source ?c - thing)
+    (cold-source ?c - thing)
+    (brews ?c - thing)                ; a coffee machine
+    (runs-closed ?x - thing)          ; a microwave
+    (cooks-when-cut ?x - thing)       ; bread and eggs
+    (accepts-cut ?c ?x - thing)       ; a toaster, bread
+    (cutter ?x - thing)
+    (controls ?s ?d - thing)          ; switching s runs the heat source d: a knob its burner, a toaster itself
+    (fills ?s ?b - thing)             ; the tap s runs into the basin b
+    (can-lift ?r - robot ?x - item)
+    (can-lift-together ?r ?h - robot ?x - item)
+    (can-help-lift ?h - robot ?x - item)
+    (one-handed ?r - robot)
+    (many-handed ?r - robot)
+    (next ?n ?m - count))
+
+  ; ---------------------------------------------------------------- going
+
+  (:action GoToObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (placed ?x) (mobile ?r))
+    :effect (and
+      (forall (?y - thing) (not (at ?r ?y)))
+      (forall (?f - Floor) (at ?r ?f))
+      (at ?r ?x)
+      (forall (?c - thing) (when (in ?x ?c) (at ?r ?c)))
+      (forall (?y - item) (when (in ?y ?x) (at ?r ?y)))))
+
+  ; ---------------------------------------------------------------- carrying
+
+  (:action PickupObject
+    :parameters (?r - robot ?x - item ?c - thing)
+    :precondition (and (can-lift ?r ?x) (hand-free ?r) (pickupable ?x)
+                       (in ?x ?c) (at ?r ?x) (exposed ?x))
+    :effect (and
+      (holding ?r ?x)
+      (not (in ?x ?c))
+      (not (placed ?x))
+      (not (heating ?x))
+      (not (cooling ?x))
+      (forall (?a - robot) (not (at ?a ?x)))
+      (forall (?y - item) (when (in ?y ?x) (not (placed ?y))))
+      (forall (?a - robot ?y - item) (when (in ?y ?x) (not (at ?a ?y))))
+      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (not (placed ?z))))
+      (forall (?a - robot ?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (not (at ?a ?z))))
+      (when (one-handed ?r) (not (hand-free ?r)))
+      (when (and (many-handed ?r) (free-hands ?r one)) (not (hand-free ?r)))
+      (forall (?n ?m - count)
+        (when (and (many-handed ?r) (next ?m ?n) (free-hands ?r ?n))
+              (and (not (free-hands ?r ?n)) (free-hands ?r ?m))))
+      (when (cutter ?x) (armed ?r))))
+
+  (:action PutObject
+    :parameters (?r - robot ?x - item ?c - thing)
+    :precondition (and (can-lift ?r ?x) (holding ?r ?x)
+                       (accepts ?c ?x) (accessible ?c) (exposed ?c) (at ?r ?c))
+    :effect (and
+      (not (holding ?r ?x))
+      (in ?x ?c)
+      (placed ?x)
+      (at ?r ?x)
+      (forall (?y - item) (when (in ?y ?x) (and (placed ?y) (at ?r ?y))))
+      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
+      ; into heat
+      (when (heating ?c) (and (hot ?x) (not (cold ?x))))
+      (when (and (heating ?c) (cookable ?x)) (cooked ?x))
+      (when (and (heating ?c) (heat-source ?c) (receptacle ?x)) (heating ?x))
+      (forall (?y - item) (when (and (heating ?c) (in ?y ?x)) (and (hot ?y) (not (cold ?y)))))
+      (forall (?y - item) (when (and (heating ?c) (in ?y ?x) (cookable ?y)) (cooked ?y)))
+      (when (and (heating ?c) (brews ?c) (fillable ?x) (not (filled ?x)))
+            (and (filled ?x) (filled-with ?x coffee)))
+      ; into cold
+      (when (cooling ?c) (and (cold ?x) (not (hot ?x))))
+      (when (and (cold-source ?c) (receptacle ?x)) (cooling ?x))
+      (forall (?y - item) (when (and (cooling ?c) (in ?y ?x)) (and (cold ?y) (not (hot ?y)))))
+      ; under running water
+      (when (rinsing ?c) (not (dirty ?x)))
+      (when (and (rinsing ?c) (fillable ?x) (not (filled ?x))) (and (filled ?x) (filled-with ?x water)))
+      (hand-free ?r)
+      (forall (?n ?m - count)
+        (when (and (many-handed ?r) (next ?n ?m) (free-hands ?r ?n))
+              (and (not (free-hands ?r ?n)) (free-hands ?r ?m))))
+      (when (cutter ?x) (not (armed ?r)))
+      (forall (?k - item)
+        (when (and (many-handed ?r) (cutter ?x) (cutter ?k) (not (= ?k ?x)) (holding ?r ?k)) (armed ?r)))))
+
+  ; Lets go where the robot stands: on the floor. Nothing breaks.
+  (:action DropHandObject
+    :parameters (?r - robot ?x - item)
+    :precondition (and (can-lift ?r ?x) (holding ?r ?x))
+    :effect (and
+      (not (holding ?r ?x))
+      (forall (?f - Floor) (in ?x ?f))
+      (placed ?x)
+      (at ?r ?x)
+      (forall (?y - item) (when (in ?y ?x) (and (placed ?y) (at ?r ?y))))
+      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
+      (hand-free ?r)
+      (forall (?n ?m - count)
+        (when (and (many-handed ?r) (next ?n ?m) (free-hands ?r ?n))
+              (and (not (free-hands ?r ?n)) (free-hands ?r ?m))))
+      (when (cutter ?x) (not (armed ?r)))
+      (forall (?k - item)
+        (when (and (many-handed ?r) (cutter ?x) (cutter ?k) (not (= ?k ?x)) (holding ?r ?k)) (armed ?r)))))
+
+  ; Throws it across the room: it ends on the floor, out of reach, and breaks if it can.
+  (:action ThrowObject
+    :parameters (?r - robot ?x - item)
+    :precondition (and (can-lift ?r ?x) (holding ?r ?x))
+    :effect (and
+      (not (holding ?r ?x))
+      (forall (?f - Floor) (in ?x ?f))
+      (placed ?x)
+      (forall (?y - item) (when (in ?y ?x) (placed ?y)))
+      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
+      (when (breakable ?x) (and
+        (broken ?x)
+        (not (toggled ?x))
+        (not (can-switch-on ?x))
+        (not (heating ?x))
+        (not (accessible ?x))
+        (not (filled ?x))
+        (forall (?l - liquid) (not (filled-with ?x ?l)))
+        (when (shatters ?x) (not (pickupable ?x)))
+        (when (cooks-when-cut ?x) (cookable ?x))))
+      (hand-free ?r)
+      (forall (?n ?m - count)
+        (when (and (many-handed ?r) (next ?n ?m) (free-hands ?r ?n))
+              (and (not (free-hands ?r ?n)) (free-hands ?r ?m))))
+      (when (cutter ?x) (not (armed ?r)))
+      (forall (?k - item)
+        (when (and (many-handed ?r) (cutter ?x) (cutter ?k) (not (= ?k ?x)) (holding ?r ?k)) (armed ?r)))))
+
+  (:action PushObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (pushable ?x) (at ?r ?x) (exposed ?x))
+    :effect (moved ?x))
+
+  (:action PullObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (pushable ?x) (at ?r ?x) (exposed ?x))
+    :effect (moved ?x))
+
+  ; ---------------------------------------------------------------- carrying together
+  ; What is too heavy for one robot is lifted by two: ?h offers a hand, ?r leads. Until it is put down, ?h
+  ; stays with ?r. `can-lift-together` is only true of pairs of which neither can lift the thing alone.
+
+  (:action SupportObject
+    :parameters (?h - robot ?x - item)
+    :precondition (and (can-help-lift ?h ?x) (hand-free ?h) (mobile ?h) (pickupable ?x)
+                       (at ?h ?x) (exposed ?x))
+    :effect (and
+      (supporting ?h ?x)
+      (not (mobile ?h))
+      (when (one-handed ?h) (not (hand-free ?h)))
+      (when (and (many-handed ?h) (free-hands ?h one)) (not (hand-free ?h)))
+      (forall (?n ?m - count)
+        (when (and (many-handed ?h) (next ?m ?n) (free-hands ?h ?n))
+              (and (not (free-hands ?h ?n)) (free-hands ?h ?m))))))
+
+  (:action PickupTogether
+    :parameters (?r ?h - robot ?x - item ?c - thing)
+    :precondition (and (can-lift-together ?r ?h ?x) (supporting ?h ?x)
+                       (hand-free ?r) (mobile ?r) (pickupable ?x)
+                       (in ?x ?c) (at ?r ?x) (exposed ?x))
+    :effect (and
+      (holding ?r ?x)
+      (helping ?h ?r)
+      (forall (?y - thing) (not (at ?h ?y)))
+      (not (in ?x ?c))
+      (not (placed ?x))
+      (not (heating ?x))
+      (not (cooling ?x))
+      (forall (?a - robot) (not (at ?a ?x)))
+      (forall (?y - item) (when (in ?y ?x) (not (placed ?y))))
+      (forall (?a - robot ?y - item) (when (in ?y ?x) (not (at ?a ?y))))
+      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (not (placed ?z))))
+      (forall (?a - robot ?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (not (at ?a ?z))))
+      (when (one-handed ?r) (not (hand-free ?r)))
+      (when (and (many-handed ?r) (free-hands ?r one)) (not (hand-free ?r)))
+      (forall (?n ?m - count)
+        (when (and (many-handed ?r) (next ?m ?n) (free-hands ?r ?n))
+              (and (not (free-hands ?r ?n)) (free-hands ?r ?m))))
+      (when (cutter ?x) (armed ?r))))
+
+  (:action PutTogether
+    :parameters (?r ?h - robot ?x - item ?c - thing)
+    :precondition (and (can-lift-together ?r ?h ?x) (holding ?r ?x) (helping ?h ?r) (supporting ?h ?x)
+                       (accepts ?c ?x) (accessible ?c) (exposed ?c) (at ?r ?c))
+    :effect (and
+      (not (holding ?r ?x))
+      (not (supporting ?h ?x))
+      (not (helping ?h ?r))
+      (mobile ?h)
+      (at ?h ?c)
+      (at ?h ?x)
+      (forall (?f - Floor) (at ?h ?f))
+      (in ?x ?c)
+      (placed ?x)
+      (at ?r ?x)
+      (forall (?y - item) (when (in ?y ?x) (and (placed ?y) (at ?r ?y))))
+      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
+      ; into heat
+      (when (heating ?c) (and (hot ?x) (not (cold ?x))))
+      (when (and (heating ?c) (cookable ?x)) (cooked ?x))
+      (when (and (heating ?c) (heat-source ?c) (receptacle ?x)) (heating ?x))
+      (forall (?y - item) (when (and (heating ?c) (in ?y ?x)) (and (hot ?y) (not (cold ?y)))))
+      (forall (?y - item) (when (and (heating ?c) (in ?y ?x) (cookable ?y)) (cooked ?y)))
+      (when (and (heating ?c) (brews ?c) (fillable ?x) (not (filled ?x)))
+            (and (filled ?x) (filled-with ?x coffee)))
+      ; into cold
+      (when (cooling ?c) (and (cold ?x) (not (hot ?x))))
+      (when (and (cold-source ?c) (receptacle ?x)) (cooling ?x))
+      (forall (?y - item) (when (and (cooling ?c) (in ?y ?x)) (and (cold ?y) (not (hot ?y)))))
+      ; under running water
+      (when (rinsing ?c) (not (dirty ?x)))
+      (when (and (rinsing ?c) (fillable ?x) (not (filled ?x))) (and (filled ?x) (filled-with ?x water)))
+      (hand-free ?r)
+      (forall (?n ?m - count)
+        (when (and (many-handed ?r) (next ?n ?m) (free-hands ?r ?n))
+              (and (not (free-hands ?r ?n)) (free-hands ?r ?m))))
+      (when (cutter ?x) (not (armed ?r)))
+      (forall (?k - item)
+        (when (and (many-handed ?r) (cutter ?x) (cutter ?k) (not (= ?k ?x)) (holding ?r ?k)) (armed ?r)))
+      (hand-free ?h)
+      (forall (?n ?m - count)
+        (when (and (many-handed ?h) (next ?n ?m) (free-hands ?h ?n))
+              (and (not (free-hands ?h ?n)) (free-hands ?h ?m))))))
+
+  ; ---------------------------------------------------------------- doors and switches
+
+  (:action OpenObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (openable ?x) (can-open ?x) (at ?r ?x) (exposed ?x) (not (open ?x)))
+    :effect (and
+      (open ?x)
+      (when (runs-closed ?x) (not (can-switch-on ?x)))
+      (when (encloses ?x) (accessible ?x))
+      (forall (?y - item) (when (and (encloses ?x) (in ?y ?x)) (exposed ?y)))
+      (forall (?y - vessel ?z - item)
+        (when (and (encloses ?x) (in ?y ?x) (in ?z ?y) (accessible ?y)) (exposed ?z)))
+      (forall (?y ?w - vessel ?z - item)
+        (when (and (encloses ?x) (in ?y ?x) (in ?w ?y) (in ?z ?w) (accessible ?y) (accessible ?w))
+              (exposed ?z)))))
+
+  (:action CloseObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (openable ?x) (at ?r ?x) (exposed ?x) (open ?x))
+    :effect (and
+      (not (open ?x))
+      (when (runs-closed ?x) (can-switch-on ?x))
+      (when (encloses ?x) (not (accessible ?x)))
+      (forall (?y - item) (when (and (encloses ?x) (in ?y ?x)) (not (exposed ?y))))
+      (forall (?y - vessel ?z - item)
+        (when (and (encloses ?x) (in ?y ?x) (in ?z ?y)) (not (exposed ?z))))
+      (forall (?y ?w - vessel ?z - item)
+        (when (and (encloses ?x) (in ?y ?x) (in ?w ?y) (in ?z ?w)) (not (exposed ?z))))))
+
+  (:action SwitchOn
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (toggleable ?x) (can-switch-on ?x) (at ?r ?x) (exposed ?x) (not (toggled ?x)))
+    :effect (and
+      (toggled ?x)
+      (when (runs-closed ?x) (not (can-open ?x)))
+      ; a heat source: itself, what it holds, and what that holds
+      (forall (?d - thing) (when (controls ?x ?d) (and (toggled ?d) (heating ?d))))
+      (forall (?d - thing ?y - item) (when (and (controls ?x ?d) (in ?y ?d)) (and (hot ?y) (not (cold ?y)))))
+      (forall (?d - thing ?y - vessel) (when (and (controls ?x ?d) (in ?y ?d)) (heating ?y)))
+      (forall (?d - thing ?y - item) (when (and (controls ?x ?d) (in ?y ?d) (cookable ?y)) (cooked ?y)))
+      (forall (?d - thing ?y - vessel ?z - item)
+        (when (and (controls ?x ?d) (in ?y ?d) (in ?z ?y)) (and (hot ?z) (not (cold ?z)))))
+      (forall (?d - thing ?y - vessel ?z - item)
+        (when (and (controls ?x ?d) (in ?y ?d) (in ?z ?y) (cookable ?z)) (cooked ?z)))
+      (forall (?d - thing ?y - vessel)
+        (when (and (controls ?x ?d) (brews ?d) (in ?y ?d) (fillable ?y) (not (filled ?y)))
+              (and (filled ?y) (filled-with ?y coffee))))
+      ; a tap: what stands in its basin becomes clean and full
+      (forall (?b - thing) (when (fills ?x ?b) (rinsing ?b)))
+      (forall (?b - thing ?y - item) (when (and (fills ?x ?b) (in ?y ?b)) (not (dirty ?y))))
+      (forall (?b - thing ?y - item)
+        (when (and (fills ?x ?b) (in ?y ?b) (fillable ?y) (not (filled ?y)))
+              (and (filled ?y) (filled-with ?y water))))))
+
+  (:action SwitchOff
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (toggleable ?x) (at ?r ?x) (exposed ?x) (toggled ?x))
+    :effect (and
+      (not (toggled ?x))
+      (when (runs-closed ?x) (can-open ?x))
+      (forall (?d - thing) (when (controls ?x ?d) (and (not (toggled ?d)) (not (heating ?d)))))
+      (forall (?d - thing ?y - vessel) (when (and (controls ?x ?d) (in ?y ?d)) (not (heating ?y))))
+      (forall (?b - thing) (when (fills ?x ?b) (not (rinsing ?b))))))
+
+  ; ---------------------------------------------------------------- changing things
+
+  (:action SliceObject
+    :parameters (?r - robot ?x - item)
+    :precondition (and (sliceable ?x) (armed ?r) (at ?r ?x) (exposed ?x) (not (sliced ?x)) (not (broken ?x)))
+    :effect (and
+      (sliced ?x)
+      (when (cooks-when-cut ?x) (cookable ?x))
+      (forall (?c - thing) (when (and (cooks-when-cut ?x) (in ?x ?c) (heating ?c)) (cooked ?x)))
+      (forall (?c - thing) (when (accepts-cut ?c ?x) (accepts ?c ?x)))))
+
+  (:action BreakObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (breakable ?x) (at ?r ?x) (exposed ?x) (not (broken ?x)) (not (sliced ?x)))
+    :effect (and
+      (broken ?x)
+      (not (toggled ?x))
+      (not (can-switch-on ?x))
+      (not (heating ?x))
+      (not (accessible ?x))
+      (not (filled ?x))
+      (forall (?l - liquid) (not (filled-with ?x ?l)))
+      (when (shatters ?x) (not (pickupable ?x)))
+      (when (cooks-when-cut ?x) (cookable ?x))))
+
+  (:action CleanObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (dirtyable ?x) (dirty ?x) (at ?r ?x) (exposed ?x))
+    :effect (not (dirty ?x)))
+
+  (:action DirtyObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (dirtyable ?x) (at ?r ?x) (exposed ?x) (not (dirty ?x)))
+    :effect (dirty ?x))
+
+  (:action FillObject
+    :parameters (?r - robot ?x - thing ?l - liquid)
+    :precondition (and (fillable ?x) (at ?r ?x) (exposed ?x) (not (filled ?x)) (not (broken ?x)))
+    :effect (and (filled ?x) (filled-with ?x ?l)))
+
+  (:action EmptyObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (fillable ?x) (at ?r ?x) (exposed ?x) (filled ?x))
+    :effect (and (not (filled ?x)) (forall (?l - liquid) (not (filled-with ?x ?l)))))
+
+  ; ---------------------------------------------------------------- nobody's skill
+  ; What the arbiter does to the world when a robot's process is gone: what it held, alone or with another,
+  ; lies on the floor, and the robot is nowhere.
+
+  (:action RobotLost
+    :parameters (?r - robot)
+    :precondition (and)
+    :effect (and
+      (not (hand-free ?r))
+      (not (armed ?r))
+      (not (mobile ?r))
+      (forall (?y - thing) (not (at ?r ?y)))
+      (forall (?x - item ?f - Floor)
+        (when (holding ?r ?x) (and (not (holding ?r ?x)) (in ?x ?f) (placed ?x))))
+      (forall (?x - item ?y - item) (when (and (holding ?r ?x) (in ?y ?x)) (placed ?y)))
+      (forall (?x - item ?y - vessel ?z - item)
+        (when (and (holding ?r ?x) (in ?y ?x) (in ?z ?y)) (placed ?z)))
+      ; it led: its helper is free again
+      (forall (?h - robot) (when (helping ?h ?r) (and (not (helping ?h ?r)) (mobile ?h) (hand-free ?h))))
+      (forall (?h - robot ?n ?m - count)
+        (when (and (helping ?h ?r) (next ?n ?m) (free-hands ?h ?n))
+              (and (not (free-hands ?h ?n)) (free-hands ?h ?m))))
+      (forall (?h - robot ?x - item) (when (helping ?h ?r) (not (supporting ?h ?x))))
+      (forall (?h - robot ?f - Floor) (when (helping ?h ?r) (at ?h ?f)))
+      ; it helped: the leader cannot hold on alone
+      (forall (?x - item) (not (supporting ?r ?x)))
+      (forall (?l - robot) (when (helping ?r ?l) (and (not (helping ?r ?l)) (hand-free ?l))))
+      (forall (?l - robot ?n ?m - count)
+        (when (and (helping ?r ?l) (next ?n ?m) (free-hands ?l ?n))
+              (and (not (free-hands ?l ?n)) (free-hands ?l ?m))))
+      (forall (?l - robot ?x - item ?f - Floor)
+        (when (and (helping ?r ?l) (supporting ?r ?x))
+              (and (not (holding ?l ?x)) (in ?x ?f) (placed ?x))))
+      (forall (?l - robot ?x - item ?y - item)
+        (when (and (helping ?r ?l) (supporting ?r ?x) (in ?y ?x)) (placed ?y))))))
