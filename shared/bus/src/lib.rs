@@ -7,11 +7,13 @@
 //! | module | what |
 //! |---|---|
 //! | [`inproc`] | many endpoints in one process, for tests and single-process runs |
+//! | [`iceoryx`] | processes of one host over shared memory (iceoryx2); nothing big is copied |
 //! | [`driver`] | feeds a [`Machine`](lamma_protocol::Machine) from a bus, a clock and its worker threads |
 //! | [`trace`] | inputs as JSON lines, to replay a run |
 
 pub mod driver;
 mod error;
+pub mod iceoryx;
 mod inbox;
 pub mod inproc;
 pub mod trace;

@@ -2,6 +2,7 @@
 
 mod suite;
 
+use lamma_bus::iceoryx::{Endpoint, Run, Scope, sweep};
 use lamma_bus::inproc::{Hub, Inproc};
 use lamma_protocol::Node;
 
@@ -26,6 +27,43 @@ impl Fixture for InprocFixture {
 
     fn open(&self, node: Node) -> Inproc {
         self.0.open(node).expect("a node of the team")
+    }
+}
+
+/// The run's owner, which must stay in its thread, waits on one of its own.
+struct IceoryxFixture {
+    scope: Scope,
+    end: Option<std::sync::mpsc::Sender<()>>,
+    owner: Option<std::thread::JoinHandle<()>>,
+}
+
+impl Fixture for IceoryxFixture {
+    type Endpoint = Endpoint;
+
+    fn new(agents: u16) -> Self {
+        let (end, ended) = std::sync::mpsc::channel();
+        let (tell, told) = std::sync::mpsc::channel();
+        let owner = std::thread::spawn(move || {
+            let run = Run::create(agents).expect("shared memory");
+            tell.send(run.scope().clone()).expect("the fixture waits");
+            // Ends when the fixture is dropped.
+            let _ = ended.recv();
+            run.end().expect("all is removed");
+        });
+        let scope = told.recv().expect("the owner's thread tells");
+        IceoryxFixture { scope, end: Some(end), owner: Some(owner) }
+    }
+
+    fn open(&self, node: Node) -> Endpoint {
+        Endpoint::open(&self.scope, node).expect("an endpoint")
+    }
+}
+
+impl Drop for IceoryxFixture {
+    fn drop(&mut self) {
+        drop(self.end.take());
+        let _ = self.owner.take().map(std::thread::JoinHandle::join);
+        sweep(&self.scope).expect("sweeping twice does nothing");
     }
 }
 
@@ -56,3 +94,4 @@ macro_rules! conformance {
 }
 
 conformance!(inproc, super::InprocFixture);
+conformance!(iceoryx, super::IceoryxFixture);

@@ -2,6 +2,7 @@
 //!
 //! No test asserts how long something takes: waits have a generous end only so that a broken transport
 //! fails instead of hanging.
+#![expect(clippy::unwrap_used, reason = "a failure here is a failed test")]
 
 use std::time::{Duration, Instant};
 
