@@ -9,6 +9,7 @@
 //! | [`inproc`] | many endpoints in one process, for tests and single-process runs |
 //! | [`iceoryx`] | processes of one host over shared memory (iceoryx2); nothing big is copied |
 //! | [`driver`] | feeds a [`Machine`](lamma_protocol::Machine) from a bus, a clock and its worker threads |
+//! | [`process`] | what the processes of a run need from the operating system |
 //! | [`trace`] | inputs as JSON lines, to replay a run |
 
 pub mod driver;
@@ -16,6 +17,7 @@ mod error;
 pub mod iceoryx;
 mod inbox;
 pub mod inproc;
+pub mod process;
 pub mod trace;
 
 use std::task::Waker;

@@ -63,7 +63,7 @@ fn grant() -> Message {
 }
 
 fn coordinator() -> lamma_bus::inproc::Inproc {
-    Hub::new(1).open(Node::Coordinator).unwrap()
+    Hub::new(1).open(Node::Coordinator).expect("a node of the team")
 }
 
 #[test]

@@ -22,6 +22,9 @@ use super::scope::{SHARED_MEMORY, Scope};
 /// bytes in Linux).
 const MAX_ROOT: usize = 42;
 
+/// Names that are tried in one folder.
+const TRIES: usize = 8;
+
 /// Something of a run could not be removed.
 #[derive(Debug, Error)]
 #[error("cannot remove {path} of an ended run ({reason}): remove it by hand, or as its owner")]
@@ -45,9 +48,12 @@ impl Claim {
         let mut tried = Vec::new();
         let mut reason = String::from("no such folder");
         for base in bases() {
-            match Claim::in_base(&base, agents) {
-                Ok(claim) => return Ok(claim),
-                Err(error) => reason = error.to_string(),
+            // A sweeper may look at the new file before it is locked, and take it: then another name.
+            for _ in 0..TRIES {
+                match Claim::in_base(&base, agents) {
+                    Ok(claim) => return Ok(claim),
+                    Err(error) => reason = error.to_string(),
+                }
             }
             tried.push(base);
         }
