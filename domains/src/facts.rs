@@ -1,0 +1,209 @@
+//! The facts that hold at the start of a run.
+
+use lamma_pddl::ast::{GroundAtom, Init};
+
+use crate::goal::PropertyValue;
+use crate::kinds::{self, Kinds};
+use crate::property::Property;
+use crate::robots::Robot;
+use crate::world::{Rules, Thing};
+
+/// Rounding in masses and capacities that is not meant, in kilograms.
+const SLACK_KG: f64 = 1e-9;
+
+/// All facts of the start, static ones first.
+pub(crate) fn initial(things: &[Thing], team: &[Robot], rules: Rules) -> Vec<Init> {
+    let mut facts = Facts(Vec::new());
+    for thing in things {
+        facts.statics(thing, rules);
+    }
+    facts.compatibility(things);
+    facts.lifting(things, team);
+    for thing in things {
+        facts.state(thing, things);
+    }
+    for robot in team {
+        facts.robot(robot, things, rules);
+    }
+    facts.0.into_iter().map(Init::Fact).collect()
+}
+
+struct Facts(Vec<GroundAtom>);
+
+impl Facts {
+    fn add(&mut self, predicate: &str, args: &[&str]) {
+        self.0.push(GroundAtom::new(predicate, args.iter().copied()));
+    }
+
+    fn when(&mut self, holds: bool, predicate: &str, args: &[&str]) {
+        if holds {
+            self.add(predicate, args);
+        }
+    }
+
+    /// What never changes about one thing.
+    fn statics(&mut self, thing: &Thing, rules: Rules) {
+        let (x, kind) = (thing.name.as_str(), thing.kind.as_str());
+        let table = [
+            ("openable", "openable"),
+            ("toggleable", "toggleable"),
+            ("sliceable", "sliceable"),
+            ("breakable", "breakable"),
+            ("dirtyable", "dirtyable"),
+            ("canFillWithLiquid", "fillable"),
+            ("receptacle", "receptacle"),
+            ("isHeatSource", "heat-source"),
+            ("isColdSource", "cold-source"),
+        ];
+        for (affordance, predicate) in table {
+            self.when(thing.can(affordance), predicate, &[x]);
+        }
+        self.when(kinds::encloses(kind), "encloses", &[x]);
+        self.when(thing.can("pickupable") || thing.can("moveable"), "pushable", &[x]);
+        self.when(thing.can("breakable") && kinds::shatters(kind), "shatters", &[x]);
+        self.when(kinds::cooks_when_cut(kind), "cooks-when-cut", &[x]);
+        self.when(kind == "CoffeeMachine", "brews", &[x]);
+        self.when(kind == "Microwave", "runs-closed", &[x]);
+        self.when(kinds::cutter(kind) && !rules.knife_free, "cutter", &[x]);
+        for device in &thing.controls {
+            self.add("controls", &[x, device]);
+        }
+        for basin in &thing.fills {
+            self.add("fills", &[x, basin]);
+        }
+    }
+
+    /// Which receptacle takes what.
+    fn compatibility(&mut self, things: &[Thing]) {
+        let kinds = Kinds::get();
+        for place in things.iter().filter(|t| t.can("receptacle")) {
+            for item in things.iter().filter(|t| t.can("pickupable") && t.name != place.name) {
+                let args = [place.name.as_str(), item.name.as_str()];
+                let cut = kinds.accepts_cut(&place.kind, &item.kind);
+                let whole = kinds.accepts(&place.kind, &item.kind);
+                self.when(whole || cut && item.flag("isSliced"), "accepts", &args);
+                self.when(cut, "accepts-cut", &args);
+            }
+        }
+    }
+
+    /// Who can lift what, alone or with whom.
+    fn lifting(&mut self, things: &[Thing], team: &[Robot]) {
+        let carries = ["PickupObject", "PutObject", "DropHandObject", "ThrowObject"];
+        let alone = |robot: &Robot, thing: &Thing| thing.mass_kg <= robot.capacity_kg + SLACK_KG;
+        for thing in things.iter().filter(|t| t.can("pickupable")) {
+            let x = thing.name.as_str();
+            for robot in team.iter().filter(|r| carries.iter().any(|s| r.has(s))) {
+                self.when(alone(robot, thing), "can-lift", &[&robot.name, x]);
+            }
+            let weak: Vec<&Robot> =
+                team.iter().filter(|r| r.has("PickupObject") && !alone(r, thing)).collect();
+            for helper in &weak {
+                let leads = |leader: &&&Robot| {
+                    let together = leader.capacity_kg + helper.capacity_kg + SLACK_KG;
+                    leader.name != helper.name && thing.mass_kg <= together
+                };
+                let leaders: Vec<&&Robot> = weak.iter().filter(leads).collect();
+                self.when(!leaders.is_empty(), "can-help-lift", &[&helper.name, x]);
+                for leader in leaders {
+                    self.add("can-lift-together", &[&leader.name, &helper.name, x]);
+                }
+            }
+        }
+    }
+
+    /// The state of one thing.
+    fn state(&mut self, thing: &Thing, things: &[Thing]) {
+        let (x, kind) = (thing.name.as_str(), thing.kind.as_str());
+        let movable = thing.can("pickupable");
+        for (name, value) in &thing.is {
+            self.property(x, name, value);
+        }
+        if let Some(parent) = thing.parent.as_deref().filter(|_| movable) {
+            self.add("in", &[x, parent]);
+        }
+        self.when(kind != "Floor", "placed", &[x]);
+        self.when(exposed(thing, things), "exposed", &[x]);
+        let broken = thing.flag("isBroken");
+        let door_open = !kinds::encloses(kind) || thing.flag("isOpen");
+        self.when(thing.can("receptacle") && door_open && !broken, "accessible", &[x]);
+        self.when(movable && !(broken && kinds::shatters(kind)), "pickupable", &[x]);
+        let cut = thing.flag("isSliced") || broken;
+        self.when(thing.can("cookable") || cut && kinds::cooks_when_cut(kind), "cookable", &[x]);
+
+        let running = thing.flag("isToggled");
+        let closed_only = kind == "Microwave";
+        self.when(thing.can("openable") && !(closed_only && running), "can-open", &[x]);
+        let may_run = !broken && !(closed_only && thing.flag("isOpen"));
+        self.when(thing.can("toggleable") && may_run, "can-switch-on", &[x]);
+
+        let runs = |d: &str| things.iter().any(|t| t.flag("isToggled") && t.controls.iter().any(|c| c == d));
+        let in_source = |affordance: &str| {
+            let parent = thing.parent.as_deref().and_then(|p| things.iter().find(|t| t.name == p));
+            parent.filter(|p| movable && thing.can("receptacle") && p.can(affordance))
+        };
+        let heated = runs(x) || in_source("isHeatSource").is_some_and(|p| runs(&p.name));
+        self.when(heated, "heating", &[x]);
+        self.when(thing.can("isColdSource") || in_source("isColdSource").is_some(), "cooling", &[x]);
+        let water = |t: &Thing| t.flag("isToggled") && t.fills.iter().any(|b| b == x);
+        self.when(things.iter().any(water), "rinsing", &[x]);
+        self.when(kind == "StoveBurner" && runs(x) && !running, "toggled", &[x]);
+    }
+
+    fn property(&mut self, x: &str, name: &str, value: &PropertyValue) {
+        match (Property::parse(name), value) {
+            (Ok(Property::Temperature), PropertyValue::Word(word)) => {
+                self.when(word == "Hot", "hot", &[x]);
+                self.when(word == "Cold", "cold", &[x]);
+            }
+            (Ok(Property::FillLiquid), PropertyValue::Word(word)) => {
+                self.add("filled", &[x]);
+                self.add("filled-with", &[x, word]);
+            }
+            (Ok(Property::Filled), PropertyValue::Flag(true)) => self.add("filled", &[x]),
+            (Ok(flag), PropertyValue::Flag(true)) if !flag.predicate().is_empty() => {
+                self.add(flag.predicate(), &[x]);
+            }
+            // False flags are facts that are absent; scenes hold no other properties (a test reads them all).
+            _ => {}
+        }
+    }
+
+    fn robot(&mut self, robot: &Robot, things: &[Thing], rules: Rules) {
+        let r = robot.name.as_str();
+        for floor in things.iter().filter(|t| t.kind == "Floor") {
+            self.add("at", &[r, &floor.name]);
+        }
+        self.add("hand-free", &[r]);
+        self.add("mobile", &[r]);
+        self.when(rules.knife_free, "armed", &[r]);
+        const COUNT: [&str; 5] = ["none", "one", "two", "three", "four"];
+        if robot.hands > 1 {
+            self.add("many-handed", &[r]);
+            self.add("free-hands", &[r, COUNT[usize::from(robot.hands.min(4))]]);
+            for pair in COUNT.windows(2) {
+                let next = GroundAtom::new("next", pair.iter().copied());
+                if !self.0.contains(&next) {
+                    self.0.push(next);
+                }
+            }
+        } else {
+            self.add("one-handed", &[r]);
+        }
+    }
+}
+
+/// No closed door is between it and the room.
+fn exposed(thing: &Thing, things: &[Thing]) -> bool {
+    let mut at = thing;
+    // A scene's nesting is a tree, so it is no deeper than there are things.
+    for _ in things {
+        let parent = at.parent.as_deref().filter(|_| at.can("pickupable"));
+        match parent.and_then(|p| things.iter().find(|t| t.name == p)) {
+            Some(parent) if kinds::encloses(&parent.kind) && !parent.flag("isOpen") => return false,
+            Some(parent) => at = parent,
+            None => return true,
+        }
+    }
+    true
+}
