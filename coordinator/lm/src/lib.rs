@@ -1,9 +1,11 @@
 //! Language models behind one trait: the embedded default and a chat-completions client.
 
 pub mod answer;
+pub mod offline;
 pub mod request;
 
 pub use answer::{Answer, Clarification, Decomposition, LmError, Subtask};
+pub use offline::Offline;
 pub use request::{ObjectView, Request, RobotView};
 
 use std::sync::atomic::AtomicBool;
