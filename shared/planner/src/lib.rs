@@ -1,5 +1,18 @@
 //! Grounding, heuristics, search, validation and partial-order plans for PDDL tasks.
 
+mod csr;
+pub mod ground;
+pub mod heuristic;
+mod id_table;
+mod lifted;
 pub mod plan;
+pub mod search;
+mod successor;
+pub mod task;
 
+pub use ground::{GroundError, GroundLimits, ground};
 pub use plan::{GroundAct, Literal, Plan};
+pub use search::{
+    GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, plan, relaxed_plan_cost, solve,
+};
+pub use task::{FactId, OperatorId, State, Task};
