@@ -24,13 +24,14 @@
     robot thing liquid count - object
     fixture item - thing              ; what stays where it is, and what can be carried
     vessel - item                     ; what can be carried and can hold something
+    heater basin - fixture            ; what heats what lies in it, and what a tap runs into
     ; One type for each object type of AI2-THOR 5.0.
-    ArmChair Bathtub Bed Blinds Cabinet Chair CoffeeMachine CoffeeTable CounterTop Curtains Desk
-    DeskLamp Desktop DiningTable DogBed Drawer Dresser Faucet Floor FloorLamp Fridge GarbageBag
-    GarbageCan HandTowelHolder HousePlant LaundryHamper LightSwitch Microwave Mirror Ottoman
-    Painting Poster RoomDecor Safe Shelf ShelvingUnit ShowerCurtain ShowerDoor ShowerGlass
-    ShowerHead SideTable Sink Sofa Stool StoveBurner StoveKnob TVStand TargetCircle Television
-    Toaster Toilet ToiletPaperHanger TowelHolder VacuumCleaner Window - fixture
+    ArmChair Bed Blinds Cabinet Chair CoffeeTable CounterTop Curtains Desk DeskLamp Desktop
+    DiningTable DogBed Drawer Dresser Faucet Floor FloorLamp Fridge GarbageBag GarbageCan
+    HandTowelHolder HousePlant LaundryHamper LightSwitch Mirror Ottoman Painting Poster RoomDecor
+    Safe Shelf ShelvingUnit ShowerCurtain ShowerDoor ShowerGlass ShowerHead SideTable Sofa Stool
+    StoveKnob TVStand TargetCircle Television Toilet ToiletPaperHanger TowelHolder VacuumCleaner
+    Window - fixture
     AlarmClock AluminumFoil Apple BaseballBat BasketBall Book Boots Bottle Bread ButterKnife CD
     Candle CellPhone Cloth CreditCard DishSponge Dumbbell Egg Fork HandTowel Kettle KeyChain Knife
     Ladle Laptop Lettuce Newspaper PaperTowelRoll Pen Pencil PepperShaker Pillow Plunger Potato
@@ -38,6 +39,8 @@
     TableTopDecor TeddyBear TennisRacket TissueBox ToiletPaper Tomato Towel Vase Watch WateringCan
     WineBottle - item
     Bowl Box Cup Footstool Mug Pan Plate Pot - vessel
+    CoffeeMachine Microwave StoveBurner Toaster - heater
+    Bathtub Sink - basin
     SinkBasin - Sink BathtubBasin - Bathtub
     AppleSliced - Apple BreadSliced - Bread LettuceSliced - Lettuce PotatoSliced - Potato
     TomatoSliced - Tomato EggCracked - Egg)
@@ -101,7 +104,7 @@
     (cooks-when-cut ?x - thing)       ; bread and eggs
     (accepts-cut ?c ?x - thing)       ; a toaster, bread
     (cutter ?x - thing)
-    (controls ?s ?d - thing)          ; switching s runs the heat source d: a knob its burner, a toaster itself
+    (controls ?s ?d - thing)         ; switching s runs the heat source d: a knob its burner, a toaster itself
     (fills ?s ?b - thing)             ; the tap s runs into the basin b
     (can-lift ?r - robot ?x - item)
     (can-lift-together ?r ?h - robot ?x - item)
@@ -359,21 +362,21 @@
       (toggled ?x)
       (when (runs-closed ?x) (not (can-open ?x)))
       ; a heat source: itself, what it holds, and what that holds
-      (forall (?d - thing) (when (controls ?x ?d) (and (toggled ?d) (heating ?d))))
-      (forall (?d - thing ?y - item) (when (and (controls ?x ?d) (in ?y ?d)) (and (hot ?y) (not (cold ?y)))))
-      (forall (?d - thing ?y - vessel) (when (and (controls ?x ?d) (in ?y ?d)) (heating ?y)))
-      (forall (?d - thing ?y - item) (when (and (controls ?x ?d) (in ?y ?d) (cookable ?y)) (cooked ?y)))
-      (forall (?d - thing ?y - vessel ?z - item)
+      (forall (?d - heater) (when (controls ?x ?d) (and (toggled ?d) (heating ?d))))
+      (forall (?d - heater ?y - item) (when (and (controls ?x ?d) (in ?y ?d)) (and (hot ?y) (not (cold ?y)))))
+      (forall (?d - heater ?y - vessel) (when (and (controls ?x ?d) (in ?y ?d)) (heating ?y)))
+      (forall (?d - heater ?y - item) (when (and (controls ?x ?d) (in ?y ?d) (cookable ?y)) (cooked ?y)))
+      (forall (?d - heater ?y - vessel ?z - item)
         (when (and (controls ?x ?d) (in ?y ?d) (in ?z ?y)) (and (hot ?z) (not (cold ?z)))))
-      (forall (?d - thing ?y - vessel ?z - item)
+      (forall (?d - heater ?y - vessel ?z - item)
         (when (and (controls ?x ?d) (in ?y ?d) (in ?z ?y) (cookable ?z)) (cooked ?z)))
-      (forall (?d - thing ?y - vessel)
+      (forall (?d - heater ?y - vessel)
         (when (and (controls ?x ?d) (brews ?d) (in ?y ?d) (fillable ?y) (not (filled ?y)))
               (and (filled ?y) (filled-with ?y coffee))))
       ; a tap: what stands in its basin becomes clean and full
-      (forall (?b - thing) (when (fills ?x ?b) (rinsing ?b)))
-      (forall (?b - thing ?y - item) (when (and (fills ?x ?b) (in ?y ?b)) (not (dirty ?y))))
-      (forall (?b - thing ?y - item)
+      (forall (?b - basin) (when (fills ?x ?b) (rinsing ?b)))
+      (forall (?b - basin ?y - item) (when (and (fills ?x ?b) (in ?y ?b)) (not (dirty ?y))))
+      (forall (?b - basin ?y - item)
         (when (and (fills ?x ?b) (in ?y ?b) (fillable ?y) (not (filled ?y)))
               (and (filled ?y) (filled-with ?y water))))))
 
@@ -383,9 +386,9 @@
     :effect (and
       (not (toggled ?x))
       (when (runs-closed ?x) (can-open ?x))
-      (forall (?d - thing) (when (controls ?x ?d) (and (not (toggled ?d)) (not (heating ?d)))))
-      (forall (?d - thing ?y - vessel) (when (and (controls ?x ?d) (in ?y ?d)) (not (heating ?y))))
-      (forall (?b - thing) (when (fills ?x ?b) (not (rinsing ?b))))))
+      (forall (?d - heater) (when (controls ?x ?d) (and (not (toggled ?d)) (not (heating ?d)))))
+      (forall (?d - heater ?y - vessel) (when (and (controls ?x ?d) (in ?y ?d)) (not (heating ?y))))
+      (forall (?b - basin) (when (fills ?x ?b) (not (rinsing ?b))))))
 
   ; ---------------------------------------------------------------- changing things
 

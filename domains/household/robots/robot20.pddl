@@ -1,0 +1,238 @@
+(define (domain household)
+  (:requirements :strips :typing :equality :negative-preconditions :conditional-effects)
+  (:types
+    robot thing liquid count - object
+    fixture item - thing
+    vessel - item
+    heater basin ArmChair Bed Blinds Cabinet Chair CoffeeTable CounterTop Curtains Desk DeskLamp Desktop DiningTable DogBed Drawer Dresser Faucet Floor FloorLamp Fridge GarbageBag GarbageCan HandTowelHolder HousePlant LaundryHamper LightSwitch Mirror Ottoman Painting Poster RoomDecor Safe Shelf ShelvingUnit ShowerCurtain ShowerDoor ShowerGlass ShowerHead SideTable Sofa Stool StoveKnob TVStand TargetCircle Television Toilet ToiletPaperHanger TowelHolder VacuumCleaner Window - fixture
+    AlarmClock AluminumFoil Apple BaseballBat BasketBall Book Boots Bottle Bread ButterKnife CD Candle CellPhone Cloth CreditCard DishSponge Dumbbell Egg Fork HandTowel Kettle KeyChain Knife Ladle Laptop Lettuce Newspaper PaperTowelRoll Pen Pencil PepperShaker Pillow Plunger Potato RemoteControl SaltShaker ScrubBrush SoapBar SoapBottle Spatula Spoon SprayBottle Statue TableTopDecor TeddyBear TennisRacket TissueBox ToiletPaper Tomato Towel Vase Watch WateringCan WineBottle - item
+    Bowl Box Cup Footstool Mug Pan Plate Pot - vessel
+    CoffeeMachine Microwave StoveBurner Toaster - heater
+    Bathtub Sink - basin
+    SinkBasin - Sink
+    BathtubBasin - Bathtub
+    AppleSliced - Apple
+    BreadSliced - Bread
+    LettuceSliced - Lettuce
+    PotatoSliced - Potato
+    TomatoSliced - Tomato
+    EggCracked - Egg)
+  (:constants
+    water coffee wine - liquid
+    none one two three four - count)
+  (:predicates
+    (at ?r - robot ?x - thing)
+    (holding ?r - robot ?x - item)
+    (in ?x ?c - thing)
+    (open ?x - thing)
+    (toggled ?x - thing)
+    (sliced ?x - thing)
+    (broken ?x - thing)
+    (cooked ?x - thing)
+    (dirty ?x - thing)
+    (filled ?x - thing)
+    (filled-with ?x - thing ?l - liquid)
+    (hot ?x - thing)
+    (cold ?x - thing)
+    (used-up ?x - thing)
+    (moved ?x - thing)
+    (placed ?x - thing)
+    (exposed ?x - thing)
+    (accessible ?c - thing)
+    (pickupable ?x - thing)
+    (can-open ?x - thing)
+    (can-switch-on ?x - thing)
+    (cookable ?x - thing)
+    (accepts ?c ?x - thing)
+    (heating ?c - thing)
+    (cooling ?c - thing)
+    (rinsing ?c - thing)
+    (hand-free ?r - robot)
+    (free-hands ?r - robot ?n - count)
+    (armed ?r - robot)
+    (mobile ?r - robot)
+    (supporting ?h - robot ?x - item)
+    (helping ?h ?r - robot)
+    (openable ?x - thing)
+    (encloses ?c - thing)
+    (toggleable ?x - thing)
+    (sliceable ?x - thing)
+    (breakable ?x - thing)
+    (shatters ?x - thing)
+    (dirtyable ?x - thing)
+    (fillable ?x - thing)
+    (pushable ?x - thing)
+    (receptacle ?c - thing)
+    (heat-source ?c - thing)
+    (cold-source ?c - thing)
+    (brews ?c - thing)
+    (runs-closed ?x - thing)
+    (cooks-when-cut ?x - thing)
+    (accepts-cut ?c ?x - thing)
+    (cutter ?x - thing)
+    (controls ?s ?d - thing)
+    (fills ?s ?b - thing)
+    (can-lift ?r - robot ?x - item)
+    (can-lift-together ?r ?h - robot ?x - item)
+    (can-help-lift ?h - robot ?x - item)
+    (one-handed ?r - robot)
+    (many-handed ?r - robot)
+    (next ?n ?m - count))
+  (:action GoToObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (placed ?x) (mobile ?r))
+    :effect (and
+      (forall (?y - thing) (not (at ?r ?y)))
+      (forall (?f - Floor) (at ?r ?f))
+      (at ?r ?x)
+      (forall (?c - thing) (when (in ?x ?c) (at ?r ?c)))
+      (forall (?y - item) (when (in ?y ?x) (at ?r ?y)))))
+  (:action DropHandObject
+    :parameters (?r - robot ?x - item)
+    :precondition (and (can-lift ?r ?x) (holding ?r ?x))
+    :effect (and
+      (not (holding ?r ?x))
+      (forall (?f - Floor) (in ?x ?f))
+      (placed ?x)
+      (at ?r ?x)
+      (forall (?y - item) (when (in ?y ?x) (and (placed ?y) (at ?r ?y))))
+      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
+      (hand-free ?r)
+      (forall
+        (?n ?m - count)
+        (when
+          (and (many-handed ?r) (next ?n ?m) (free-hands ?r ?n))
+          (and (not (free-hands ?r ?n)) (free-hands ?r ?m))))
+      (when (cutter ?x) (not (armed ?r)))
+      (forall
+        (?k - item)
+        (when
+          (and (many-handed ?r) (cutter ?x) (cutter ?k) (not (= ?k ?x)) (holding ?r ?k))
+          (armed ?r)))))
+  (:action ThrowObject
+    :parameters (?r - robot ?x - item)
+    :precondition (and (can-lift ?r ?x) (holding ?r ?x))
+    :effect (and
+      (not (holding ?r ?x))
+      (forall (?f - Floor) (in ?x ?f))
+      (placed ?x)
+      (forall (?y - item) (when (in ?y ?x) (placed ?y)))
+      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
+      (when
+        (breakable ?x)
+        (and
+          (broken ?x)
+          (not (toggled ?x))
+          (not (can-switch-on ?x))
+          (not (heating ?x))
+          (not (accessible ?x))
+          (not (filled ?x))
+          (forall (?l - liquid) (not (filled-with ?x ?l)))
+          (when (shatters ?x) (not (pickupable ?x)))
+          (when (cooks-when-cut ?x) (cookable ?x))))
+      (hand-free ?r)
+      (forall
+        (?n ?m - count)
+        (when
+          (and (many-handed ?r) (next ?n ?m) (free-hands ?r ?n))
+          (and (not (free-hands ?r ?n)) (free-hands ?r ?m))))
+      (when (cutter ?x) (not (armed ?r)))
+      (forall
+        (?k - item)
+        (when
+          (and (many-handed ?r) (cutter ?x) (cutter ?k) (not (= ?k ?x)) (holding ?r ?k))
+          (armed ?r)))))
+  (:action PushObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (pushable ?x) (at ?r ?x) (exposed ?x))
+    :effect (moved ?x))
+  (:action PullObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (pushable ?x) (at ?r ?x) (exposed ?x))
+    :effect (moved ?x))
+  (:action OpenObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (openable ?x) (can-open ?x) (at ?r ?x) (exposed ?x) (not (open ?x)))
+    :effect (and
+      (open ?x)
+      (when (runs-closed ?x) (not (can-switch-on ?x)))
+      (when (encloses ?x) (accessible ?x))
+      (forall (?y - item) (when (and (encloses ?x) (in ?y ?x)) (exposed ?y)))
+      (forall
+        (?y - vessel ?z - item)
+        (when (and (encloses ?x) (in ?y ?x) (in ?z ?y) (accessible ?y)) (exposed ?z)))
+      (forall
+        (?y ?w - vessel ?z - item)
+        (when
+          (and (encloses ?x) (in ?y ?x) (in ?w ?y) (in ?z ?w) (accessible ?y) (accessible ?w))
+          (exposed ?z)))))
+  (:action CloseObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (openable ?x) (at ?r ?x) (exposed ?x) (open ?x))
+    :effect (and
+      (not (open ?x))
+      (when (runs-closed ?x) (can-switch-on ?x))
+      (when (encloses ?x) (not (accessible ?x)))
+      (forall (?y - item) (when (and (encloses ?x) (in ?y ?x)) (not (exposed ?y))))
+      (forall
+        (?y - vessel ?z - item)
+        (when (and (encloses ?x) (in ?y ?x) (in ?z ?y)) (not (exposed ?z))))
+      (forall
+        (?y ?w - vessel ?z - item)
+        (when (and (encloses ?x) (in ?y ?x) (in ?w ?y) (in ?z ?w)) (not (exposed ?z))))))
+  (:action SwitchOn
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (toggleable ?x) (can-switch-on ?x) (at ?r ?x) (exposed ?x) (not (toggled ?x)))
+    :effect (and
+      (toggled ?x)
+      (when (runs-closed ?x) (not (can-open ?x)))
+      (forall (?d - heater) (when (controls ?x ?d) (and (toggled ?d) (heating ?d))))
+      (forall
+        (?d - heater ?y - item)
+        (when (and (controls ?x ?d) (in ?y ?d)) (and (hot ?y) (not (cold ?y)))))
+      (forall (?d - heater ?y - vessel) (when (and (controls ?x ?d) (in ?y ?d)) (heating ?y)))
+      (forall
+        (?d - heater ?y - item)
+        (when (and (controls ?x ?d) (in ?y ?d) (cookable ?y)) (cooked ?y)))
+      (forall
+        (?d - heater ?y - vessel ?z - item)
+        (when (and (controls ?x ?d) (in ?y ?d) (in ?z ?y)) (and (hot ?z) (not (cold ?z)))))
+      (forall
+        (?d - heater ?y - vessel ?z - item)
+        (when (and (controls ?x ?d) (in ?y ?d) (in ?z ?y) (cookable ?z)) (cooked ?z)))
+      (forall
+        (?d - heater ?y - vessel)
+        (when
+          (and (controls ?x ?d) (brews ?d) (in ?y ?d) (fillable ?y) (not (filled ?y)))
+          (and (filled ?y) (filled-with ?y coffee))))
+      (forall (?b - basin) (when (fills ?x ?b) (rinsing ?b)))
+      (forall (?b - basin ?y - item) (when (and (fills ?x ?b) (in ?y ?b)) (not (dirty ?y))))
+      (forall
+        (?b - basin ?y - item)
+        (when
+          (and (fills ?x ?b) (in ?y ?b) (fillable ?y) (not (filled ?y)))
+          (and (filled ?y) (filled-with ?y water))))))
+  (:action SwitchOff
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (toggleable ?x) (at ?r ?x) (exposed ?x) (toggled ?x))
+    :effect (and
+      (not (toggled ?x))
+      (when (runs-closed ?x) (can-open ?x))
+      (forall (?d - heater) (when (controls ?x ?d) (and (not (toggled ?d)) (not (heating ?d)))))
+      (forall
+        (?d - heater ?y - vessel)
+        (when (and (controls ?x ?d) (in ?y ?d)) (not (heating ?y))))
+      (forall (?b - basin) (when (fills ?x ?b) (not (rinsing ?b))))))
+  (:action BreakObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (breakable ?x) (at ?r ?x) (exposed ?x) (not (broken ?x)) (not (sliced ?x)))
+    :effect (and
+      (broken ?x)
+      (not (toggled ?x))
+      (not (can-switch-on ?x))
+      (not (heating ?x))
+      (not (accessible ?x))
+      (not (filled ?x))
+      (forall (?l - liquid) (not (filled-with ?x ?l)))
+      (when (shatters ?x) (not (pickupable ?x)))
+      (when (cooks-when-cut ?x) (cookable ?x)))))
