@@ -29,6 +29,7 @@ use lexicon::{Act, Lexicon};
 use mention::{Discourse, Spoken};
 use scene::Scene;
 use syntax::Clause;
+pub(crate) use text::damerau_levenshtein;
 
 /// Below this confidence it asks.
 const THRESHOLD: f64 = 0.5;
