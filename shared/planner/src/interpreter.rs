@@ -168,6 +168,11 @@ impl Interpreter {
         goal.unmet(&self.view(state))
     }
 
+    /// Whether the domain has derived predicates.
+    pub fn has_axioms(&self) -> bool {
+        !self.axioms.is_empty()
+    }
+
     fn view<'a>(&self, state: &'a WorldState) -> View<'a> {
         View { state, derived: self.axioms.consequences(self, state) }
     }

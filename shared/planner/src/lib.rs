@@ -6,6 +6,7 @@ pub mod ground;
 pub mod heuristic;
 mod id_table;
 mod lifted;
+pub mod partial_order;
 pub mod plan;
 pub mod search;
 mod successor;
