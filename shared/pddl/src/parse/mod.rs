@@ -58,7 +58,7 @@ fn parse<T>(
 ) -> Result<Parsed<T>, Report> {
     let mut report = Report::new(source);
     let top = sexpr::read(source, &mut report);
-    let mut parser = Parser { report, names: HashMap::new() };
+    let mut parser = Parser { report, names: HashMap::new(), typings: 0 };
     let value = top.and_then(|top| read(&mut parser, &top));
     match value {
         Some(value) if !parser.report.has_errors() => Ok(Parsed { value, warnings: parser.report }),
@@ -71,6 +71,8 @@ struct Parser {
     report: Report,
     // Looked up, never iterated.
     names: HashMap<String, Arc<str>>,
+    /// Pairs of a name and one of its types so far.
+    typings: usize,
 }
 
 impl Parser {

@@ -1,11 +1,16 @@
 //! Typed lists, `a b - t c`, and the signatures made of them.
 
+use std::collections::HashMap;
+
 use super::Parser;
 use crate::ast::{Private, Signature, TypedName};
 use crate::codes;
 use crate::diagnostic::Diagnostic;
-use crate::name::Name;
-use crate::sexpr::{List, Sexpr};
+use crate::name::{Name, Span};
+use crate::sexpr::{List, MAX_TOKENS, Sexpr};
+
+/// Variables one list may bind.
+const MAX_VARIABLES: usize = 256;
 
 /// What a typed list declares.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -21,6 +26,24 @@ pub(super) enum Declares {
 impl Parser {
     /// A typed list. Names that are not followed by a type have none.
     pub(super) fn typed_list(&mut self, items: &[Sexpr<'_>], declares: Declares) -> Vec<TypedName> {
+        let occurrences = if declares == Declares::Objects { occurrences(items) } else { HashMap::new() };
+        let list = self.typed_items(items, declares, &occurrences);
+        if let Some(over) = list.get(MAX_VARIABLES).filter(|_| declares == Declares::Variables) {
+            self.error(
+                codes::TOO_LARGE,
+                over.name.span(),
+                format!("more than {MAX_VARIABLES} variables in one list"),
+            );
+        }
+        list
+    }
+
+    fn typed_items(
+        &mut self,
+        items: &[Sexpr<'_>],
+        declares: Declares,
+        occurrences: &HashMap<String, usize>,
+    ) -> Vec<TypedName> {
         let mut list: Vec<TypedName> = Vec::new();
         let mut untyped_from = 0;
         let mut at = 0;
@@ -42,12 +65,13 @@ impl Parser {
                             Diagnostic::warning(codes::SYNTAX, dash.span, "a type without a name before it");
                         self.report.push(found.help("remove it, or write `name - type`"));
                     }
-                    let types = types.unwrap_or_default();
+                    let types =
+                        self.affordable(types.unwrap_or_default(), list.len() - untyped_from, dash.span);
                     list[untyped_from..].iter_mut().for_each(|name| name.types = types.clone());
                     untyped_from = list.len();
                 }
                 Sexpr::List(private) if declares == Declares::Objects && private.head_is(":private") => {
-                    self.private_objects(private, items, &mut list);
+                    self.private_objects(private, occurrences, &mut list);
                     untyped_from = list.len();
                 }
                 _ => {
@@ -61,6 +85,16 @@ impl Parser {
             }
         }
         list
+    }
+
+    /// Each name has its own copy of its types, so that long `either`s behind many names multiply.
+    fn affordable(&mut self, types: Vec<Name>, names: usize, span: Span) -> Vec<Name> {
+        self.typings = self.typings.saturating_add(types.len().saturating_mul(names));
+        if self.typings > MAX_TOKENS {
+            self.error(codes::TOO_LARGE, span, "too many names with too many types each");
+            return Vec::new();
+        }
+        types
     }
 
     fn object(&mut self, item: &Sexpr<'_>) -> Option<Name> {
@@ -89,12 +123,17 @@ impl Parser {
 
     /// `(:private …)` among objects. Whether its first word names the agent or is itself the first private
     /// object is not marked: an agent's name also stands in the list as an object, so it occurs twice.
-    fn private_objects(&mut self, private: &List<'_>, section: &[Sexpr<'_>], list: &mut Vec<TypedName>) {
+    fn private_objects(
+        &mut self,
+        private: &List<'_>,
+        occurrences: &HashMap<String, usize>,
+        list: &mut Vec<TypedName>,
+    ) {
         let mut items = private.rest();
         let mut owner = Private::Owner;
         if let [Sexpr::Word(first), second, ..] = items
             && second.as_word().is_some_and(|word| word.text != "-")
-            && occurrences(section, first.text) > 1
+            && occurrences.get(&first.text.to_ascii_lowercase()).is_some_and(|times| *times > 1)
             && let Some(agent) = self.name(&items[0], "an agent")
         {
             owner = Private::Agent(agent);
@@ -106,7 +145,7 @@ impl Parser {
             self.expected(nested.place(), "no `(:private` inside another", "write them one after the other");
             return;
         }
-        let inside = self.typed_list(items, Declares::Objects);
+        let inside = self.typed_items(items, Declares::Objects, occurrences);
         list.extend(inside.into_iter().map(|name| TypedName { private_to: Some(owner.clone()), ..name }));
     }
 
@@ -169,14 +208,23 @@ impl Parser {
             return;
         }
         let inside = self.signatures(inside, functions);
+        if let Private::Variable(variable) = &owner {
+            self.affordable(variable.types.clone(), inside.len(), private.place());
+        }
         signatures.extend(inside.into_iter().map(|s| Signature { private_to: Some(owner.clone()), ..s }));
     }
 }
 
-/// How often a word stands in a list or in the lists directly inside it.
-fn occurrences(items: &[Sexpr<'_>], text: &str) -> usize {
-    let is_it = |item: &Sexpr<'_>| item.as_word().is_some_and(|word| word.is(text));
-    let inside =
-        |item: &Sexpr<'_>| item.as_list().map_or(0, |list| list.items.iter().filter(|i| is_it(i)).count());
-    items.iter().map(|item| usize::from(is_it(item)) + inside(item)).sum()
+/// How often each word, in lower case, stands in the `(:private …)` lists and around them; nothing if there
+/// are none.
+fn occurrences(items: &[Sexpr<'_>]) -> HashMap<String, usize> {
+    let mut times = HashMap::new();
+    let is_private = |item: &Sexpr<'_>| item.as_list().is_some_and(|list| list.head_is(":private"));
+    if items.iter().any(is_private) {
+        let inside = items.iter().filter_map(Sexpr::as_list).flat_map(|list| &list.items);
+        for word in items.iter().chain(inside).filter_map(Sexpr::as_word) {
+            *times.entry(word.text.to_ascii_lowercase()).or_default() += 1;
+        }
+    }
+    times
 }
