@@ -52,6 +52,8 @@ pub fn check_problem(domain: &Domain, problem: &Problem, source: &Source) -> Rep
     if let Some(metric) = &problem.metric {
         checker.metric(&metric.expression);
     }
+    // The domain's types need the same and are reported with the domain.
+    checker.used.remove(&Requirement::Typing);
     checker.requirements_used();
     checker.report
 }

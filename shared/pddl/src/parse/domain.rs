@@ -100,8 +100,8 @@ impl Parser {
             (":task", "hierarchical tasks need another planner"),
             (":method", "hierarchical tasks need another planner"),
             (":htn", "hierarchical tasks need another planner"),
-            (":shared-data", "use `(:private …)`, as CoDMAP does"),
-            (":global-goal", "use `(:goal …)`"),
+            (":shared-data", "use `(:private ...)`, as CoDMAP does"),
+            (":global-goal", "use `(:goal ...)`"),
         ];
         if let Some((section, help)) = unsupported.iter().find(|(section, _)| head.is(section)) {
             self.unsupported(head.span, &format!("`{section}`"), help);

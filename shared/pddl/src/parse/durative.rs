@@ -94,7 +94,7 @@ impl Parser {
             }
         }
         let help = "in durative actions every condition and effect has its time: `(at start (idle ?r))`";
-        self.expected(list.place(), "`(at start …)`, `(over all …)` or `(at end …)`", help);
+        self.expected(list.place(), "`(at start ...)`, `(over all ...)` or `(at end ...)`", help);
         None
     }
 
@@ -158,7 +158,7 @@ impl Parser {
         }
         let is_assignment = list.head().is_some_and(|head| super::numeric::assign_op(head).is_some());
         if is_assignment {
-            self.unsupported(list.place(), "a continuous effect", "say `(at end (increase …))`");
+            self.unsupported(list.place(), "a continuous effect", "say `(at end (increase ...))`");
             return false;
         }
         let effect = self.timed(list).and_then(|(time, body)| Some((time, self.effect(body)?)));

@@ -1,6 +1,6 @@
 //! Typed lists, `a b - t c`, and the signatures made of them.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 
 use super::Parser;
 use crate::ast::{Private, Signature, TypedName};
@@ -26,8 +26,8 @@ pub(super) enum Declares {
 impl Parser {
     /// A typed list. Names that are not followed by a type have none.
     pub(super) fn typed_list(&mut self, items: &[Sexpr<'_>], declares: Declares) -> Vec<TypedName> {
-        let occurrences = if declares == Declares::Objects { occurrences(items) } else { HashMap::new() };
-        let list = self.typed_items(items, declares, &occurrences);
+        let objects = if declares == Declares::Objects { certain_objects(items) } else { HashSet::new() };
+        let list = self.typed_items(items, declares, &objects);
         if let Some(over) = list.get(MAX_VARIABLES).filter(|_| declares == Declares::Variables) {
             self.error(
                 codes::TOO_LARGE,
@@ -42,7 +42,7 @@ impl Parser {
         &mut self,
         items: &[Sexpr<'_>],
         declares: Declares,
-        occurrences: &HashMap<String, usize>,
+        objects: &HashSet<String>,
     ) -> Vec<TypedName> {
         let mut list: Vec<TypedName> = Vec::new();
         let mut untyped_from = 0;
@@ -71,7 +71,7 @@ impl Parser {
                     untyped_from = list.len();
                 }
                 Sexpr::List(private) if declares == Declares::Objects && private.head_is(":private") => {
-                    self.private_objects(private, occurrences, &mut list);
+                    self.private_objects(private, objects, &mut list);
                     untyped_from = list.len();
                 }
                 _ => {
@@ -122,18 +122,13 @@ impl Parser {
     }
 
     /// `(:private …)` among objects. Whether its first word names the agent or is itself the first private
-    /// object is not marked: an agent's name also stands in the list as an object, so it occurs twice.
-    fn private_objects(
-        &mut self,
-        private: &List<'_>,
-        occurrences: &HashMap<String, usize>,
-        list: &mut Vec<TypedName>,
-    ) {
+    /// object is not marked. But an agent is an object too, so its name also stands where objects do.
+    fn private_objects(&mut self, private: &List<'_>, objects: &HashSet<String>, list: &mut Vec<TypedName>) {
         let mut items = private.rest();
         let mut owner = Private::Owner;
         if let [Sexpr::Word(first), second, ..] = items
             && second.as_word().is_some_and(|word| word.text != "-")
-            && occurrences.get(&first.text.to_ascii_lowercase()).is_some_and(|times| *times > 1)
+            && objects.contains(&first.text.to_ascii_lowercase())
             && let Some(agent) = self.name(&items[0], "an agent")
         {
             owner = Private::Agent(agent);
@@ -145,7 +140,7 @@ impl Parser {
             self.expected(nested.place(), "no `(:private` inside another", "write them one after the other");
             return;
         }
-        let inside = self.typed_items(items, Declares::Objects, occurrences);
+        let inside = self.typed_items(items, Declares::Objects, objects);
         list.extend(inside.into_iter().map(|name| TypedName { private_to: Some(owner.clone()), ..name }));
     }
 
@@ -188,7 +183,10 @@ impl Parser {
     }
 
     fn private_signatures(&mut self, private: &List<'_>, functions: bool, signatures: &mut Vec<Signature>) {
-        let declared = private.rest().iter().take_while(|item| item.as_word().is_some()).count();
+        let is_type =
+            |at: usize| at > 0 && private.rest()[at - 1].as_word().is_some_and(|word| word.text == "-");
+        let items = private.rest().iter().enumerate();
+        let declared = items.take_while(|(at, item)| item.as_word().is_some() || is_type(*at)).count();
         let (agent, inside) = private.rest().split_at(declared);
         let mut owner = Private::Owner;
         if let Some(agent_name) = agent.first() {
@@ -215,16 +213,18 @@ impl Parser {
     }
 }
 
-/// How often each word, in lower case, stands in the `(:private …)` lists and around them; nothing if there
-/// are none.
-fn occurrences(items: &[Sexpr<'_>]) -> HashMap<String, usize> {
-    let mut times = HashMap::new();
+/// The words, in lower case, that are certainly objects: those outside of `(:private …)`, and inside all but
+/// the first, which may name the agent. Nothing if there is no `(:private …)`.
+fn certain_objects(items: &[Sexpr<'_>]) -> HashSet<String> {
+    let mut objects = HashSet::new();
     let is_private = |item: &Sexpr<'_>| item.as_list().is_some_and(|list| list.head_is(":private"));
     if items.iter().any(is_private) {
-        let inside = items.iter().filter_map(Sexpr::as_list).flat_map(|list| &list.items);
-        for word in items.iter().chain(inside).filter_map(Sexpr::as_word) {
-            *times.entry(word.text.to_ascii_lowercase()).or_default() += 1;
-        }
+        let inside = items.iter().filter_map(Sexpr::as_list).flat_map(|list| {
+            let is_object = list.items.get(2).and_then(Sexpr::as_word).is_none_or(|word| word.text == "-");
+            list.items.get(if is_object { 1 } else { 2 }..).unwrap_or_default()
+        });
+        let words = items.iter().chain(inside).filter_map(Sexpr::as_word);
+        objects.extend(words.map(|word| word.text.to_ascii_lowercase()));
     }
-    times
+    objects
 }
