@@ -4,9 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::Domain;
-use lamma_pddl::{Source, parse_problem};
-use lamma_planner::Limits;
-use lamma_planner::Outcome;
+use lamma_pddl::{Source, check_problem, parse_problem};
+use lamma_planner::{Limits, Outcome};
+use lamma_planner::validate::validate;
 use lamma_protocol::message::{Act, Package, PackageReport, PlanResult};
 
 /// Work that the robot hands out: plan one package.
@@ -37,12 +37,20 @@ impl RobotJob {
             Ok(parsed) => parsed.value,
             Err(report) => return PlanResult::Malformed(report.to_string()),
         };
+        let report = check_problem(&self.domain, &problem, &source);
+        if report.has_errors() {
+            return PlanResult::Malformed(report.to_string());
+        }
         let limits = Limits { expansions: Some(self.expansions), ..Limits::default() };
         match lamma_planner::plan(&self.domain, &problem, &limits, cancel) {
             Err(error) => PlanResult::Malformed(error.to_string()),
             Ok(Outcome::Unsolvable(reason)) => PlanResult::Infeasible(reason.to_string()),
             Ok(Outcome::GaveUp(limit)) => PlanResult::GaveUp(limit.to_string()),
-            Ok(Outcome::Found(plan)) => PlanResult::Found(plan.acts.iter().map(act).collect()),
+            Ok(Outcome::Found(plan)) => match validate(&self.domain, &problem, &plan.acts) {
+                Ok(verdict) if verdict.is_valid() => PlanResult::Found(plan.acts.iter().map(act).collect()),
+                Ok(invalid) => PlanResult::GaveUp(format!("the plan found is not valid: {invalid}")),
+                Err(error) => PlanResult::Malformed(error.to_string()),
+            },
         }
     }
 }
