@@ -5,7 +5,8 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use lamma_pddl::{Source, parse_domain, parse_problem};
-use lamma_planner::{GroundLimits, Limits, Outcome, SearchOptions, ground, solve};
+use lamma_planner::search::{Statistics, solve_with_statistics};
+use lamma_planner::{GroundLimits, Limits, Outcome, SearchOptions, ground};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let args: Vec<String> = std::env::args().collect();
@@ -24,7 +25,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         memory_bytes: Some(2 << 30),
         expansions: None,
     };
-    let outcome = solve(&task, &SearchOptions::default(), &limits, &AtomicBool::new(false));
+    let mut statistics = Statistics::default();
+    let cancel = AtomicBool::new(false);
+    let outcome = solve_with_statistics(&task, &SearchOptions::default(), &limits, &cancel, &mut statistics);
     let total = start.elapsed();
     let ms = |d: Duration| format!("{:.2}", d.as_secs_f64() * 1e3);
     match &outcome {
@@ -36,6 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         Outcome::GaveUp(why) => println!("; gave up: {why}"),
     }
     println!("; {task}");
+    println!("; {statistics:?}");
     println!(
         "; parse {} ms, ground {} ms, search {} ms",
         ms(parsed),

@@ -7,6 +7,7 @@
 mod encode;
 mod inline;
 mod instantiate;
+mod invariant;
 mod join;
 mod layers;
 mod propositional;
@@ -63,5 +64,6 @@ pub fn ground(domain: &Domain, problem: &Problem, limits: &GroundLimits) -> Resu
     let reached = reach::reach(&lifted, limits)?;
     let mut ground = instantiate::instantiate(&lifted, &reached, limits)?;
     simplify::simplify(&mut ground);
-    encode::encode(lifted, &reached.relations, ground, &[])
+    let groups = invariant::mutex_groups(&ground, &reached.relations);
+    encode::encode(lifted, &reached.relations, ground, &groups)
 }

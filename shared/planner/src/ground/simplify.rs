@@ -117,7 +117,7 @@ fn remove_constants(ground: &mut Ground, reachable: &[bool]) -> bool {
     let certain = |lit: Lit| if lit.holds() { always[lit.atom()] } else { !reachable[lit.atom()] };
     let pool = &mut ground.pool;
     // Shortens a condition; false if it can never hold.
-    let mut shorten = |pool: &mut Vec<Lit>, stretch: &mut Stretch| {
+    let shorten = |pool: &mut Vec<Lit>, stretch: &mut Stretch| {
         if pool[stretch.range()].iter().any(|&lit| certain(lit.negated())) {
             return false;
         }

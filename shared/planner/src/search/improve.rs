@@ -101,7 +101,6 @@ impl Improvement<'_, '_> {
             if *self.left == 0 || meter.expand(|| registry.bytes() + open.bytes()).is_err() {
                 return Step::Stopped;
             }
-            *self.left -= 1;
             state.copy_from_slice(registry.state(id));
             applicable.clear();
             self.successors.applicable(task, &state, &mut applicable);
@@ -119,6 +118,7 @@ impl Improvement<'_, '_> {
                         return Step::Better(registry.path(successor));
                     }
                     preferred.clear();
+                    *self.left = self.left.saturating_sub(1);
                     estimates.push(self.relaxation.hff(&next, &mut preferred));
                 } else if cost < costs[index] {
                     costs[index] = cost;

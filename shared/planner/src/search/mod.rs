@@ -18,21 +18,39 @@ use crate::successor::Successors;
 use crate::task::Task;
 use limits::Meter;
 
+/// The work, in nodes of the relaxed task looked at, that improving a plan may take by default.
+const IMPROVEMENT_WORK: u64 = 400_000;
+
 /// How to search.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct SearchOptions {
-    /// Expansions spent on making the first plan better. Zero: only useless actions are dropped.
-    pub improvement_expansions: u64,
+    /// States estimated to make the first plan better; zero: only useless actions are dropped. `None`: what
+    /// takes about a millisecond, which is much for household tasks and next to nothing for large ones.
+    pub improvement: Option<u64>,
 }
 
-impl Default for SearchOptions {
-    fn default() -> Self {
-        SearchOptions { improvement_expansions: 2_000 }
-    }
+/// What a search did.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Statistics {
+    /// Expanded states until the first plan.
+    pub expanded: u64,
+    /// The cost of the first plan.
+    pub first_cost: f64,
 }
 
 /// Searches for a plan.
 pub fn solve(task: &Task, options: &SearchOptions, limits: &Limits, cancel: &AtomicBool) -> Outcome {
+    solve_with_statistics(task, options, limits, cancel, &mut Statistics::default())
+}
+
+/// Searches for a plan and says how it went.
+pub fn solve_with_statistics(
+    task: &Task,
+    options: &SearchOptions,
+    limits: &Limits,
+    cancel: &AtomicBool,
+    statistics: &mut Statistics,
+) -> Outcome {
     if !task.impossible.is_empty() {
         return Outcome::Unsolvable(Unsolvable::Unreachable(task.impossible.clone()));
     }
@@ -44,11 +62,15 @@ pub fn solve(task: &Task, options: &SearchOptions, limits: &Limits, cancel: &Ato
     }
     let successors = Successors::new(task);
     let mut meter = Meter::new(limits, cancel);
-    match greedy::lazy_greedy(task, &successors, &mut relaxation, &mut meter) {
+    let found = greedy::lazy_greedy(task, &successors, &mut relaxation, &mut meter);
+    statistics.expanded = meter.expanded;
+    match found {
         Err(reason) => Outcome::GaveUp(reason),
         Ok(None) => Outcome::Unsolvable(Unsolvable::Exhausted),
         Ok(Some(path)) => {
-            let effort = options.improvement_expansions;
+            statistics.first_cost = path.iter().map(|&o| task.operators[o.index()].cost).sum();
+            let affordable = IMPROVEMENT_WORK / relaxation.size().max(1) as u64;
+            let effort = options.improvement.unwrap_or(affordable);
             let path = improve::improve(task, &successors, &mut relaxation, path, effort, &mut meter);
             Outcome::Found(task.plan(&path))
         }
