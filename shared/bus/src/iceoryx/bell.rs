@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::task::{Wake, Waker};
 use std::time::{Duration, Instant};
 
-use iceoryx2::port::listener::Listener;
+use iceoryx2::port::listener::{Listener, ListenerWaitError};
 use iceoryx2::prelude::*;
 use rustix::event::{EventfdFlags, PollFd, PollFlags, Timespec, eventfd, poll};
 use rustix::io::Errno;
@@ -52,49 +52,48 @@ impl Bell {
         Waker::from(Arc::clone(&self.own))
     }
 
-    /// Sleeps until a ring or the deadline, and gives the ids of all rings so far to `rung`.
+    /// Sleeps until a ring or the deadline, and gives the ids of the rings so far to `rung`.
     pub(super) fn wait(
         &self,
         timeout: Option<Duration>,
         mut rung: impl FnMut(usize),
     ) -> Result<Woken, WaitError> {
         let deadline = timeout.and_then(|t| Instant::now().checked_add(t));
-        let ready = loop {
+        let [bell, own] = loop {
             let left = deadline.map(|d| d.saturating_duration_since(Instant::now()));
             // Very long waits are cut into many: the kernel refuses times that do not fit.
             let left = left.map(|l| l.min(Duration::from_secs(3600)));
-            let left =
-                left.map(|l| Timespec { tv_sec: l.as_secs() as i64, tv_nsec: l.subsec_nanos().into() });
+            let left = left
+                .map(|l| Timespec { tv_sec: l.as_secs().cast_signed(), tv_nsec: l.subsec_nanos().into() });
             match self.poll(left.as_ref()) {
-                Ok(0) if deadline.is_none_or(|d| Instant::now() < d) => {}
+                Ok([false, false]) if deadline.is_none_or(|d| Instant::now() < d) => {}
                 Ok(ready) => break ready,
                 // A signal: let the caller look at its flags.
                 Err(Errno::INTR) => return Ok(Woken::Rung),
                 Err(error) => return Err(wait_error(error)),
             }
         };
-        if ready == 0 {
-            return Ok(Woken::TimedOut);
+        if own {
+            let _ = rustix::io::read(&self.own.0, &mut [0; 8]);
         }
-        let _ = rustix::io::read(&self.own.0, &mut [0; 8]);
-        self.drain(&mut rung)?;
-        Ok(Woken::Rung)
+        if bell {
+            self.hear(&mut rung)?;
+        }
+        Ok(if bell || own { Woken::Rung } else { Woken::TimedOut })
     }
 
-    /// Takes all rings. One look takes one wake-up and all ids, so it looks until there are none; a
-    /// wake-up left over costs one wait that ends early.
-    pub(super) fn drain(&self, rung: &mut impl FnMut(usize)) -> Result<(), WaitError> {
-        loop {
-            match self.listener.try_wait(|event| rung(event.id.as_value())) {
-                Ok(0) => return Ok(()),
-                Ok(_) => {}
-                Err(iceoryx2::port::listener::ListenerWaitError::InterruptSignal) => return Ok(()),
-                Err(error) => return Err(WaitError { reason: error.to_string() }),
-            }
+    /// Takes the rings so far, and one wake-up; false if there was none. Wake-ups left over make a later
+    /// wait end early.
+    pub(super) fn hear(&self, mut rung: impl FnMut(usize)) -> Result<bool, WaitError> {
+        match self.listener.try_wait(|event| rung(event.id.as_value())) {
+            Ok(count) => Ok(count > 0),
+            Err(ListenerWaitError::InterruptSignal) => Ok(false),
+            Err(error) => Err(WaitError { reason: error.to_string() }),
         }
     }
 
-    fn poll(&self, timeout: Option<&Timespec>) -> Result<usize, Errno> {
+    /// Whether the bell and whether this process's own threads have rung.
+    fn poll(&self, timeout: Option<&Timespec>) -> Result<[bool; 2], Errno> {
         // SAFETY: the descriptor belongs to the listener, which is borrowed for as long as this lives and
         // keeps it open; only `poll` is done with it.
         let bell = unsafe { BorrowedFd::borrow_raw(self.listener.file_descriptor().native_handle()) };
@@ -102,7 +101,8 @@ impl Bell {
             PollFd::from_borrowed_fd(bell, PollFlags::IN),
             PollFd::from_borrowed_fd(self.own.0.as_fd(), PollFlags::IN),
         ];
-        poll(&mut fds, timeout)
+        poll(&mut fds, timeout)?;
+        Ok(fds.map(|fd| !fd.revents().is_empty()))
     }
 }
 

@@ -312,9 +312,10 @@ impl Bus for Endpoint {
 
     fn receive(&mut self, sink: &mut dyn FnMut(Received<'_>)) -> usize {
         if !self.readers.iter().any(|r| r.news) {
-            // For who looks without waiting. A bell that cannot be heard is an error of the next wait.
+            // For who looks without waiting, and to take wake-ups left over. A bell that cannot be heard is
+            // an error of the next wait.
             let mut rung = Vec::new();
-            let _ = self.bell.drain(&mut |id| rung.extend(self.rings.meaning(id)));
+            while self.bell.hear(|id| rung.extend(self.rings.meaning(id))).unwrap_or(false) {}
             self.heed(rung);
         }
         let readers = self.readers.iter_mut().filter(|r| r.news);
