@@ -6,6 +6,7 @@ mod facts;
 pub mod goal;
 pub mod goal_error;
 pub mod kinds;
+pub mod matthor;
 pub mod nearest;
 pub mod place;
 pub mod property;
@@ -14,6 +15,7 @@ pub mod robots;
 pub mod scene;
 mod scribe;
 pub mod seed;
+pub mod tasks;
 pub mod view;
 pub mod world;
 

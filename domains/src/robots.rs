@@ -6,8 +6,9 @@ use std::sync::OnceLock;
 use lamma_pddl::ast::Domain;
 use lamma_pddl::parse::parse_domain;
 use lamma_pddl::source::Source;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
+use crate::goal::name_or_object;
 use crate::{HouseError, nearest};
 
 /// Every skill a robot can have. Each is an action of the union domain, with the robot as its first parameter.
@@ -91,13 +92,19 @@ impl Robot {
 }
 
 /// A member of a team as people write it: a robot of the catalogue by name, or one described.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Member {
     /// `"robot1"`
     Named(String),
     /// `{"name": "r2", "skills": ["GoToObject"], "capacity_kg": 0.9, "hands": 1}`
     Described(Robot),
+}
+
+impl<'de> Deserialize<'de> for Member {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        name_or_object(deserializer, "a robot's name or description", Member::Named, Member::Described)
+    }
 }
 
 #[derive(Deserialize)]
