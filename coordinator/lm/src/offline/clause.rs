@@ -154,9 +154,11 @@ impl<'a> Parser<'a> {
         let word = self.peek()?;
         let candidates = self.lexicon.verbs(word);
         let behind: Vec<&str> = self.rest().into_iter().skip(1).collect();
-        let (form, particles, _) = candidates
-            .iter()
-            .find(|(_, particles, _)| particles.len() <= behind.len() && particles.iter().zip(&behind).all(|(a, b)| a == b))?;
+        let (form, particles, _) = candidates.iter().find(|(_, particles, verb)| {
+            particles.len() <= behind.len()
+                && particles.iter().zip(&behind).all(|(a, b)| a == b)
+                && self.object_may_fit(particles, verb)
+        })?;
         let (form, length) = (*form, particles.len());
         let verbs = candidates
             .iter()
@@ -164,6 +166,24 @@ impl<'a> Parser<'a> {
             .map(|(_, _, verb)| *verb)
             .collect();
         Some((form, verbs, length + 1))
+    }
+
+    /// "put on the light" switches; "put on the table" puts: what follows decides.
+    fn object_may_fit(&self, particles: &[String], verb: &Verb) -> bool {
+        let (Some(wants), [particle]) = (&verb.wants, particles) else { return true };
+        if preposition(&[particle]).is_none() {
+            return true;
+        }
+        let mut at = self.position + 2;
+        while self.words.get(at).is_some_and(|word| is_determiner(word) || self.lexicon.is_small("modifiers", &[word])) {
+            at += 1;
+        }
+        self.longest_noun_at(at).is_none_or(|(noun, _, _)| self.can_be(&noun, wants))
+    }
+
+    fn can_be(&self, noun: &super::lexicon::Noun, wants: &str) -> bool {
+        self.has_affordance(noun, wants)
+            || wants == "toggleable" && noun.kinds.iter().any(|kind| self.lexicon.control(kind).is_some())
     }
 
     /// Whether a clause rather than another noun phrase starts at the position.
@@ -228,9 +248,10 @@ impl<'a> Parser<'a> {
             unknown: Vec::new(),
             words: Vec::new(),
         };
+        self.leading_places(&mut clause);
         let is_noun_first = self.longest_noun().is_some() && !self.clause_starts_here(previous.is_none());
         if let (Some((_, verbs, length)), false) = (self.verbs_here(), is_noun_first) {
-            clause.verb_text = self.text_between(start, start + length);
+            clause.verb_text = self.text_between(self.position, self.position + length);
             clause.verbs = verbs;
             self.position += length;
         } else if let Some(word) = self.peek()
@@ -258,6 +279,26 @@ impl<'a> Parser<'a> {
         clause.text = self.text_between(start, self.position);
         clause.words = self.words[start..self.position].to_vec();
         (!clause.text.is_empty()).then_some(clause)
+    }
+
+    /// "with a card in hand, turn on the lamp": places said before the verb.
+    fn leading_places(&mut self, clause: &mut Clause<'a>) {
+        let start = self.position;
+        while let Some((relation, length)) = preposition(&self.rest()) {
+            if matches!(relation, Relation::To | Relation::For) || self.verbs_here().is_some() {
+                break;
+            }
+            self.position += length;
+            let Some(phrase) = self.phrase(0) else { break };
+            clause.places.push(Place::new(relation, "", phrase));
+        }
+        if self.peek() == Some(",") {
+            self.position += 1;
+        }
+        if self.verbs_here().is_none() {
+            clause.places.clear();
+            self.position = start;
+        }
     }
 
     /// Objects, places, particles and complements, up to the next clause.
@@ -381,6 +422,9 @@ impl<'a> Parser<'a> {
             return true;
         }
         let next = self.word_at(1);
+        if preposition(&self.rest()).is_some_and(|(_, length)| length > 1) {
+            return false;
+        }
         let free = next.is_none_or(|next| {
             [",", ".", "and", "then", "before", "after", "while", "but", "again", "please", "so"].contains(&next)
                 || preposition(&[next]).is_some()
@@ -394,7 +438,9 @@ impl<'a> Parser<'a> {
             .lexicon
             .verbs(first)
             .into_iter()
-            .filter(|(_, particles, _)| particles.len() == 1 && particles[0] == word)
+            .filter(|(_, particles, verb)| {
+                particles.len() == 1 && particles[0] == word && self.objects_may_fit(clause, verb)
+            })
             .map(|(_, _, verb)| verb)
             .collect();
         if with_particle.is_empty() || clause.verb_text.contains(' ') {
@@ -410,6 +456,15 @@ impl<'a> Parser<'a> {
         clause.verb_text = format!("{first} {word}");
         self.position += 1;
         true
+    }
+
+    fn objects_may_fit(&self, clause: &Clause<'a>, verb: &Verb) -> bool {
+        let Some(wants) = &verb.wants else { return true };
+        clause.objects.is_empty()
+            || clause.objects.iter().any(|phrase| match &phrase.head {
+                super::syntax::Head::Noun(noun) => self.can_be(noun, wants),
+                _ => true,
+            })
     }
 
     /// "keep the fridge closed", "make sure the light is off", "the lamp is on".
@@ -459,7 +514,7 @@ impl<'a> Parser<'a> {
             self.position = start + length;
             return true;
         };
-        clause.places.push(Place { relation, phrase });
+        clause.places.push(Place::new(relation, &self.words[start], phrase));
         self.more_places(clause, relation);
         true
     }
@@ -485,7 +540,7 @@ impl<'a> Parser<'a> {
             if movable && relation != Relation::With {
                 clause.objects.push(phrase);
             } else {
-                clause.places.push(Place { relation, phrase });
+                clause.places.push(Place::new(relation, "", phrase));
             }
         }
     }

@@ -130,6 +130,8 @@ struct File {
     controls: BTreeMap<String, String>,
     #[serde(default)]
     homes: BTreeMap<String, Vec<String>>,
+    #[serde(default)]
+    under: BTreeMap<String, String>,
 }
 
 /// The lexicon.
@@ -144,6 +146,7 @@ pub struct Lexicon {
     situations: Vec<Situation>,
     controls: BTreeMap<String, String>,
     homes: BTreeMap<String, Vec<String>>,
+    under: BTreeMap<String, String>,
     vocabulary: BTreeSet<String>,
 }
 
@@ -193,6 +196,7 @@ impl Lexicon {
         }
         self.controls.extend(file.controls);
         self.homes.extend(file.homes);
+        self.under.extend(file.under);
         for situation in file.situation {
             for word in situation.vocabulary() {
                 self.vocabulary.insert(word);
@@ -200,6 +204,11 @@ impl Lexicon {
             self.situations.push(situation);
         }
         Ok(())
+    }
+
+    /// Whether a type is known by its own name.
+    pub fn knows_type(&self, kind: &str) -> bool {
+        self.nouns.contains_key(&squash(kind))
     }
 
     /// Makes a type known by its own name, unless the name has a meaning already.
@@ -292,6 +301,16 @@ impl Lexicon {
     pub fn homes(&self, kind: &str) -> impl Iterator<Item = &str> {
         let own = self.homes.get(kind).into_iter().flatten();
         own.chain(self.homes.get("anything").into_iter().flatten()).map(String::as_str)
+    }
+
+    /// What is meant by "under" a thing.
+    pub fn under(&self, kind: &str) -> Option<&str> {
+        self.under.get(kind).map(String::as_str)
+    }
+
+    /// The surfaces something may stand on "beside" a thing, the likelier first.
+    pub fn beside(&self) -> impl Iterator<Item = &str> {
+        self.homes.get("beside").into_iter().flatten().map(String::as_str)
     }
 
     /// The situations.

@@ -229,7 +229,7 @@ impl<'a> Discourse<'a> {
         if phrase.other
             || noun.class && phrase.quantity != Quantity::One && !phrase.definite
             || (phrase.indefinite && !sliced_again)
-            || matches!(phrase.quantity, Quantity::Count(_) | Quantity::Plural)
+            || !sliced_again && matches!(phrase.quantity, Quantity::Count(_) | Quantity::Plural)
         {
             return None;
         }
@@ -512,8 +512,9 @@ impl Discourse<'_> {
         let mut best: Option<(usize, &str, &str)> = None;
         for (i, thing) in things.iter().enumerate() {
             for (j, place) in places.iter().enumerate() {
-                if self.scene.accepts(place, thing) && best.is_none_or(|(rank, _, _)| i + j < rank) {
-                    best = Some((i + j, thing, place));
+                let rank = 2 * (i + j) + if self.scene.surely_accepts(place, thing) { 0 } else { 3 };
+                if self.scene.accepts(place, thing) && best.is_none_or(|(known, _, _)| rank < known) {
+                    best = Some((rank, thing, place));
                 }
             }
         }

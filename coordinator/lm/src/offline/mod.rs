@@ -71,11 +71,16 @@ impl Offline {
     /// What it makes of an instruction.
     pub fn read(&self, request: &Request) -> Answer {
         let scene = Scene::new(&request.objects, &request.robots);
-        let mut lexicon = self.lexicon.clone();
-        for kind in scene.kinds() {
-            lexicon.add_type(kind);
-        }
-        let reading = read(&request.instruction, &lexicon, &scene);
+        let unknown: Vec<&str> = scene.kinds().filter(|kind| !self.lexicon.knows_type(kind)).collect();
+        let reading = if unknown.is_empty() {
+            read(&request.instruction, &self.lexicon, &scene)
+        } else {
+            let mut lexicon = self.lexicon.clone();
+            for kind in unknown {
+                lexicon.add_type(kind);
+            }
+            read(&request.instruction, &lexicon, &scene)
+        };
         reading.answer(request.assume)
     }
 }

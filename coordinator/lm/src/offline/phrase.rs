@@ -57,6 +57,10 @@ impl Parser<'_> {
     fn head(&mut self, front: &mut Front) -> Option<Head> {
         let start = self.position;
         while let Some(word) = self.peek() {
+            if word == "," && self.position > start && self.list_of_modifiers() {
+                self.position += 1;
+                continue;
+            }
             if let Some(head) = self.pronoun(word, front) {
                 return Some(head);
             }
@@ -104,6 +108,17 @@ impl Parser<'_> {
         None
     }
 
+    /// "the leftmost, lower drawer": a comma between modifiers.
+    fn list_of_modifiers(&self) -> bool {
+        let before = self.position.checked_sub(1).and_then(|at| self.words.get(at));
+        let is_modifier = |word: &str| {
+            self.lexicon.is_small("modifiers", &[word]) || self.lexicon.adjective(&[word]).is_some()
+        };
+        before.is_some_and(|word| is_modifier(word))
+            && self.word_at(1).is_some_and(is_modifier)
+            && (2..5).any(|at| self.longest_noun_at(self.position + at).is_some())
+    }
+
     /// A word nobody knows: a modifier when a noun follows at once, else the head.
     fn unknown_head(&mut self, word: &str, start: usize) -> Option<Head> {
         let liquid = ["coffee", "water", "wine"].contains(&word);
@@ -144,8 +159,11 @@ impl Parser<'_> {
             "them" | "they" => Head::Pronoun { plural: true },
             "this" | "that" | "one" if alone && self.can_be_pronoun() => Head::Pronoun { plural: false },
             "these" | "those" | "both" | "ones" | "all" if alone => Head::Pronoun { plural: true },
-            "everything" | "anything" | "things" | "stuff" | "items" | "objects" | "item" | "thing" | "object" => {
-                front.plural |= word.ends_with('s');
+            "everything" | "anything" | "stuff" => Head::Everything,
+            "things" | "items" | "objects"
+                if front.phrase.definite || front.quantity == Some(Quantity::All) =>
+            {
+                front.plural = true;
                 Head::Everything
             }
             "others" | "rest" if next != Some("of") => {
@@ -328,6 +346,14 @@ impl Parser<'_> {
                         merge_of(phrase, of);
                     }
                 }
+                Some(",")
+                    if matches!(self.word_at(1), Some("containing" | "holding"))
+                        || self.word_at(1) == Some("with") && self.is_vessel(phrase) =>
+                {
+                    self.position += 2;
+                    phrase.with.extend(self.phrases(depth + 1));
+                    self.skip_back_reference();
+                }
                 Some("containing" | "holding") => {
                     self.position += 1;
                     phrase.with.extend(self.phrases(depth + 1));
@@ -386,6 +412,12 @@ impl Parser<'_> {
         }
     }
 
+    fn is_vessel(&self, phrase: &Phrase) -> bool {
+        matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
+            self.scene.affords(kind, "receptacle") && self.scene.affords(kind, "pickupable")
+        }))
+    }
+
     /// `in it`, `on it`, `inside`: says again where the contents are.
     fn skip_back_reference(&mut self) {
         if let Some((_, length)) = preposition(&self.rest()) {
@@ -404,7 +436,7 @@ impl Parser<'_> {
             let start = self.position;
             self.position += length;
             match self.phrase(depth + 1) {
-                Some(at) => phrase.at.push(Place { relation, phrase: at }),
+                Some(at) => phrase.at.push(Place::new(relation, "", at)),
                 None => self.position = start,
             }
         }

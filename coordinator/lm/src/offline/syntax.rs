@@ -109,6 +109,16 @@ pub struct Place {
     pub relation: Relation,
     /// What of.
     pub phrase: Phrase,
+    /// Whether it is `under` or the like.
+    pub under: bool,
+}
+
+impl Place {
+    /// A place by its preposition.
+    pub fn new(relation: Relation, preposition: &str, phrase: Phrase) -> Self {
+        let under = matches!(preposition, "under" | "underneath" | "below" | "beneath");
+        Self { relation, phrase, under }
+    }
 }
 
 /// How a clause follows the one before it.
