@@ -174,11 +174,15 @@ impl<'a> Parser<'a> {
         if preposition(&[particle]).is_none() {
             return true;
         }
-        let mut at = self.position + 2;
-        while self.words.get(at).is_some_and(|word| is_determiner(word) || self.lexicon.is_small("modifiers", &[word])) {
-            at += 1;
-        }
-        self.longest_noun_at(at).is_none_or(|(noun, _, _)| self.can_be(&noun, wants))
+        let nouns: Vec<_> = (self.position + 2..self.position + 8)
+            .take_while(|&at| {
+                self.words.get(at).is_some_and(|word| {
+                    preposition(&[word]).is_none() && !["and", ",", ".", "while"].contains(&word.as_str())
+                })
+            })
+            .filter_map(|at| self.longest_noun_at(at))
+            .collect();
+        nouns.is_empty() || nouns.iter().any(|(noun, _, _)| self.can_be(noun, wants))
     }
 
     fn can_be(&self, noun: &super::lexicon::Noun, wants: &str) -> bool {
@@ -421,6 +425,12 @@ impl<'a> Parser<'a> {
             self.position += 1;
             return true;
         }
+        let first = clause.verb_text.split(' ').next().unwrap_or_default().to_owned();
+        if let Some((verb, length)) = self.long_particle(&first) {
+            clause.verbs = vec![verb];
+            self.position += length;
+            return true;
+        }
         let next = self.word_at(1);
         if preposition(&self.rest()).is_some_and(|(_, length)| length > 1) {
             return false;
@@ -433,10 +443,9 @@ impl<'a> Parser<'a> {
         if clause.verb_text.is_empty() || !free {
             return false;
         }
-        let first = clause.verb_text.split(' ').next().unwrap_or_default();
         let with_particle: Vec<&Verb> = self
             .lexicon
-            .verbs(first)
+            .verbs(&first)
             .into_iter()
             .filter(|(_, particles, verb)| {
                 particles.len() == 1 && particles[0] == word && self.objects_may_fit(clause, verb)
@@ -456,6 +465,15 @@ impl<'a> Parser<'a> {
         clause.verb_text = format!("{first} {word}");
         self.position += 1;
         true
+    }
+
+    /// "put it where it belongs": more than one word behind the object.
+    fn long_particle(&self, first: &str) -> Option<(&'a Verb, usize)> {
+        let rest = self.rest();
+        self.lexicon.verbs(first).into_iter().find_map(|(_, particles, verb)| {
+            let fits = particles.len() > 2 && particles.iter().zip(&rest).all(|(a, b)| a == b);
+            (fits && rest.len() >= particles.len()).then_some((verb, particles.len()))
+        })
     }
 
     fn objects_may_fit(&self, clause: &Clause<'a>, verb: &Verb) -> bool {
@@ -510,10 +528,24 @@ impl<'a> Parser<'a> {
         let start = self.position;
         self.position += length;
         let Some(phrase) = self.phrase(0) else {
-            // A preposition with nothing behind it is an adverb: "with a spoon inside".
+            // A preposition with nothing behind it is an adverb: "with a spoon inside"; or what it is in was
+            // spoken of before: "put the tomato in".
             self.position = start + length;
+            let ends = self.peek().is_none_or(|word| [".", ",", "and"].contains(&word));
+            if ends && self.wants_place && clause.places.is_empty() && &self.words[start] == "in" {
+                let it = Phrase::bare(super::syntax::Head::Pronoun { plural: false }, "it");
+                clause.places.push(Place::new(Relation::In, "in", it));
+            }
             return true;
         };
+        // "a mug in the sink with a spoon in it": the spoon is in the mug.
+        if relation == Relation::With
+            && self.skip_back_reference()
+            && let Some(object) = clause.objects.last_mut()
+        {
+            object.with.push(phrase);
+            return true;
+        }
         clause.places.push(Place::new(relation, &self.words[start], phrase));
         self.more_places(clause, relation);
         true
@@ -531,7 +563,7 @@ impl<'a> Parser<'a> {
                 self.position = start;
                 return;
             };
-            let another_pair = preposition(&self.rest()).is_some() || matches!(self.peek(), Some("on" | "off"));
+            let another_pair = relation != Relation::From && preposition(&self.rest()).is_some() || matches!(self.peek(), Some("on" | "off"));
             if another_pair {
                 self.position = start;
                 return;

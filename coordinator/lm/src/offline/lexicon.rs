@@ -132,6 +132,8 @@ struct File {
     homes: BTreeMap<String, Vec<String>>,
     #[serde(default)]
     under: BTreeMap<String, String>,
+    #[serde(default)]
+    inside: BTreeMap<String, Vec<String>>,
 }
 
 /// The lexicon.
@@ -147,6 +149,7 @@ pub struct Lexicon {
     controls: BTreeMap<String, String>,
     homes: BTreeMap<String, Vec<String>>,
     under: BTreeMap<String, String>,
+    inside: BTreeMap<String, Vec<String>>,
     vocabulary: BTreeSet<String>,
 }
 
@@ -197,6 +200,7 @@ impl Lexicon {
         self.controls.extend(file.controls);
         self.homes.extend(file.homes);
         self.under.extend(file.under);
+        self.inside.extend(file.inside);
         for situation in file.situation {
             for word in situation.vocabulary() {
                 self.vocabulary.insert(word);
@@ -253,6 +257,12 @@ impl Lexicon {
         inflect::singulars(last)
             .iter()
             .find_map(|singular| self.nouns.get(&format!("{front}{singular}")))
+            .or_else(|| {
+                // "credits cards": plural all over.
+                let all: Option<Vec<String>> =
+                    words.iter().map(|word| inflect::singulars(word).into_iter().next()).collect();
+                all.filter(|all| all.len() > 1).and_then(|all| self.nouns.get(&all.concat()))
+            })
             .map(|noun| (noun, true))
     }
 
@@ -301,6 +311,11 @@ impl Lexicon {
     pub fn homes(&self, kind: &str) -> impl Iterator<Item = &str> {
         let own = self.homes.get(kind).into_iter().flatten();
         own.chain(self.homes.get("anything").into_iter().flatten()).map(String::as_str)
+    }
+
+    /// What a word means for something inside a vessel.
+    pub fn inside(&self, word: &str) -> Option<&[String]> {
+        self.inside.get(word).map(Vec::as_slice)
     }
 
     /// What is meant by "under" a thing.

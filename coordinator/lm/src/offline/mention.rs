@@ -145,9 +145,10 @@ impl<'a> Discourse<'a> {
                 continue;
             }
             let mut narrowed = phrase.clone();
+            narrowed.indefinite |= phrase.quantity == Quantity::One && !phrase.definite;
+            let kinds = self.lexicon.inside(&noun.word).unwrap_or(&noun.kinds);
             narrowed.head = Head::Noun(Noun {
-                kinds: noun
-                    .kinds
+                kinds: kinds
                     .iter()
                     .filter(|content| scene.has(content) && fitting.iter().any(|kind| scene.accepts(kind, content)))
                     .cloned()
@@ -444,6 +445,16 @@ impl<'a> Discourse<'a> {
             && spoken.placed
             && wants == Some("pickupable")
             && !plural
+            && fits(self, &spoken.places)
+        {
+            return spoken.places.clone();
+        }
+        // "put the pen in the cup and put them on the desk": again the cup, with what is in it.
+        if let Some(spoken) = last
+            && spoken.placed
+            && plural
+            && wants == Some("pickupable")
+            && spoken.objects.len() == 1
             && fits(self, &spoken.places)
         {
             return spoken.places.clone();

@@ -3,6 +3,7 @@
 use super::clause::Parser;
 use super::inflect;
 use super::lexicon::{LONGEST, Noun};
+use super::text::POSSESSIVE;
 use super::syntax::{Head, Phrase, Place, Quantity, is_determiner, is_function_word, preposition};
 
 /// Noun phrases within noun phrases go no deeper than this.
@@ -91,6 +92,9 @@ impl Parser<'_> {
                 self.position += 1;
                 front.plural |= word.ends_with('s');
                 front.sliced = true;
+                if self.longest_noun().is_some_and(|(noun, _, _)| self.has_affordance(&noun, "sliceable")) {
+                    continue;
+                }
                 return Some(Head::Slices);
             }
             if let Some(length) = self.lexicon.longest_small("modifiers", &self.rest())
@@ -276,6 +280,14 @@ impl Parser<'_> {
         self.position += length;
         let (mut noun, mut plural) = (noun, plural);
         while let Some(word) = self.peek() {
+            if word == POSSESSIVE {
+                self.position += 1;
+                if self.noun_follows(0) {
+                    return self.head(front).unwrap_or(Head::Noun(noun));
+                }
+                plural = true;
+                continue;
+            }
             if self.is_slices(word) && self.has_affordance(&noun, "sliceable") {
                 front.sliced = true;
                 plural |= word.ends_with('s');
@@ -329,10 +341,16 @@ impl Parser<'_> {
 
     /// Whether a noun, or adjectives and a noun, follow behind `offset` words.
     fn noun_follows(&self, offset: usize) -> bool {
-        (offset..offset + 4).any(|at| {
-            self.longest_noun_at(self.position + at).is_some()
-                || self.word_at(at).is_some_and(|word| self.is_slices(word))
-        })
+        (offset..offset + 4)
+            .take_while(|&at| {
+                self.word_at(at).is_some_and(|word| {
+                    preposition(&[word]).is_none() && !is_determiner(word) && !["and", ",", "."].contains(&word)
+                })
+            })
+            .any(|at| {
+                self.longest_noun_at(self.position + at).is_some()
+                    || self.word_at(at).is_some_and(|word| self.is_slices(word))
+            })
     }
 
     /// What follows the head: contents, places, exceptions.
@@ -352,7 +370,7 @@ impl Parser<'_> {
                 {
                     self.position += 2;
                     phrase.with.extend(self.phrases(depth + 1));
-                    self.skip_back_reference();
+                    let _ = self.skip_back_reference();
                 }
                 Some("containing" | "holding") => {
                     self.position += 1;
@@ -370,7 +388,7 @@ impl Parser<'_> {
                         return;
                     }
                     phrase.with.extend(with);
-                    self.skip_back_reference();
+                    let _ = self.skip_back_reference();
                 }
                 Some("that" | "which" | "thats") if matches!(self.word_at(1), Some("is" | "are" | "was" | "were")) => {
                     self.position += 2;
@@ -383,7 +401,7 @@ impl Parser<'_> {
                 Some("that" | "which") if matches!(self.word_at(1), Some("has" | "contains" | "have" | "holds")) => {
                     self.position += 2;
                     phrase.with.extend(self.phrases(depth + 1));
-                    self.skip_back_reference();
+                    let _ = self.skip_back_reference();
                 }
                 Some("sitting" | "located" | "lying" | "laying" | "standing" | "resting" | "placed" | "found")
                     if self.position + 1 < self.words.len() && preposition(&self.rest()[1..]).is_some() =>
@@ -419,7 +437,8 @@ impl Parser<'_> {
     }
 
     /// `in it`, `on it`, `inside`: says again where the contents are.
-    fn skip_back_reference(&mut self) {
+    pub(super) fn skip_back_reference(&mut self) -> bool {
+        let start = self.position;
         if let Some((_, length)) = preposition(&self.rest()) {
             match self.word_at(length) {
                 Some("it" | "them") => self.position += length + 1,
@@ -429,6 +448,7 @@ impl Parser<'_> {
                 _ => {}
             }
         }
+        self.position > start
     }
 
     fn where_it_is(&mut self, phrase: &mut Phrase, depth: usize) {

@@ -91,8 +91,15 @@ impl<'a> Interpreter<'_, 'a> {
             matches!(&clause.places[i].phrase.head, Head::Noun(noun)
                 if noun.kinds.iter().any(|k| scene.affords(k, "pickupable") && scene.affords(k, "receptacle")))
         };
+        let relation = |i: usize| clause.places[i].relation;
+        let compartment = |i: usize| {
+            matches!(&clause.places[i].phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|k| {
+                scene.has(k) && self.discourse.lexicon.is_small("compartments", &[&k.to_lowercase()])
+            }))
+        };
         let (goal, inner) = match goals.as_slice() {
             [.., a, b] if movable(*a) && !movable(*b) => (*b, Some(*a)),
+            [a, b] if compartment(*a) && !compartment(*b) && relation(*b) == Relation::In => (*a, None),
             _ => (to.unwrap_or(last), None),
         };
         let at = (0..clause.places.len())
@@ -143,6 +150,15 @@ impl<'a> Interpreter<'_, 'a> {
         let thing = self.discourse.entities[first].kind().to_owned();
         let scene = self.discourse.scene;
         let reference = mentioned.first().map(|&e| self.discourse.entities[e].kind().to_owned());
+        if near.there
+            && let Some(&place) = mentioned.first()
+            && reference.as_deref().is_some_and(|kind| scene.accepts(kind, &thing))
+        {
+            for &entity in &objects {
+                self.put_in(entity, place);
+            }
+            return Spoken { objects, places: vec![place], placed: true };
+        }
         let under = reference.as_deref().filter(|_| near.under).and_then(|kind| self.discourse.lexicon.under(kind));
         let stands_on = reference.as_deref().and_then(|kind| {
             let object = scene.of_kind(kind).first()?;
@@ -150,7 +166,8 @@ impl<'a> Interpreter<'_, 'a> {
             parents.map(|parent| parent.kind.as_str()).find(|kind| *kind != "Floor" && scene.accepts(kind, &thing))
         });
         let likely = self.discourse.lexicon.beside().find(|kind| scene.surely_accepts(kind, &thing));
-        let chosen = under.filter(|kind| scene.accepts(kind, &thing)).or(stands_on).or(likely).map(str::to_owned);
+        let kinds = self.discourse.entities[first].kinds.clone();
+        let chosen = under.filter(|place| kinds.iter().any(|kind| scene.accepts(place, kind))).or(stands_on).or(likely).map(str::to_owned);
         let Some(chosen) = chosen else {
             self.discourse.problem(format!("there is no surface for \"{}\"", clause.text), 0.3);
             return Spoken { objects, ..Spoken::default() };
