@@ -71,6 +71,7 @@ impl<T: Transport> Transport for Record<T> {
 pub struct Replay {
     path: PathBuf,
     lines: BTreeMap<String, Result<Reply, TransportError>>,
+    model: Option<String>,
 }
 
 impl Replay {
@@ -81,6 +82,7 @@ impl Replay {
         };
         let text = std::fs::read_to_string(path).map_err(|error| at(0, error.to_string()))?;
         let mut lines = BTreeMap::new();
+        let mut model = None;
         for (number, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
             let line: Line = serde_json::from_str(text).map_err(|error| at(number + 1, error.to_string()))?;
             let result = match (line.reply, line.error) {
@@ -88,9 +90,15 @@ impl Replay {
                 (None, Some(error)) => Err(error),
                 _ => return Err(at(number + 1, "needs either \"reply\" or \"error\"".to_owned())),
             };
+            model = line.request["model"].as_str().map(str::to_owned).or(model);
             lines.insert(line.key, result);
         }
-        Ok(Self { path: path.to_owned(), lines })
+        Ok(Self { path: path.to_owned(), lines, model })
+    }
+
+    /// The model that was recorded.
+    pub fn model(&self) -> Option<&str> {
+        self.model.as_deref()
     }
 }
 

@@ -125,13 +125,13 @@ impl<T: Transport> ChatModel<T> {
 
     /// Asks for less after a refusal, and remembers it; false when there is nothing less to ask for.
     fn give_way(&mut self, status: u16, body: &str) -> bool {
-        if !matches!(status, 400 | 404 | 415 | 422 | 500 | 501) {
+        if !matches!(status, 400 | 415 | 422 | 500 | 501) {
             return false;
         }
         let named = ["temperature", "seed", "max_tokens"]
             .into_iter()
             .find(|name| body.contains(name) && !self.refused.contains(name));
-        if let (Some(name), false) = (named, status == 404) {
+        if let Some(name) = named {
             self.refused.push(name);
             return true;
         }
@@ -140,7 +140,7 @@ impl<T: Transport> ChatModel<T> {
             Form::JsonObject => Form::Plain,
             Form::Plain => return false,
         };
-        status != 404
+        true
     }
 
     fn account(&mut self, messages: &[Value], reply: &Reply) {

@@ -56,7 +56,10 @@ pub fn from_spec(spec: &str, options: &Options) -> Result<Box<dyn LanguageModel>
         }
         Some(("replay", file)) if !file.is_empty() => {
             let replay = Replay::read(Path::new(file)).map_err(|error| LmError::Configuration(format!("--lm replay: {error}")))?;
-            Ok(Box::new(Fallback::new(chat(replay, options)?, offline)))
+            
+            let recorded = replay.model().map(str::to_owned);
+            let options = Options { model: options.model.clone().or(recorded), ..options.clone() };
+            Ok(Box::new(Fallback::new(chat(replay, &options)?, offline)))
         }
         _ => Err(LmError::Configuration(format!(
             "--lm {spec:?} is not known; give offline, openai, record:FILE or replay:FILE"

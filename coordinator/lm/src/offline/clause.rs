@@ -154,9 +154,11 @@ impl<'a> Parser<'a> {
         let word = self.peek()?;
         let candidates = self.lexicon.verbs(word);
         let behind: Vec<&str> = self.rest().into_iter().skip(1).collect();
-        let (form, particles, _) = candidates
-            .iter()
-            .find(|(_, particles, _)| particles.len() <= behind.len() && particles.iter().zip(&behind).all(|(a, b)| a == b))?;
+        let (form, particles, _) = candidates.iter().find(|(_, particles, verb)| {
+            particles.len() <= behind.len()
+                && particles.iter().zip(&behind).all(|(a, b)| a == b)
+                && self.object_may_fit(particles, verb)
+        })?;
         let (form, length) = (*form, particles.len());
         let verbs = candidates
             .iter()
@@ -164,6 +166,28 @@ impl<'a> Parser<'a> {
             .map(|(_, _, verb)| *verb)
             .collect();
         Some((form, verbs, length + 1))
+    }
+
+    /// "put on the light" switches; "put on the table" puts: what follows decides.
+    fn object_may_fit(&self, particles: &[String], verb: &Verb) -> bool {
+        let (Some(wants), [particle]) = (&verb.wants, particles) else { return true };
+        if preposition(&[particle]).is_none() {
+            return true;
+        }
+        let nouns: Vec<_> = (self.position + 2..self.position + 8)
+            .take_while(|&at| {
+                self.words.get(at).is_some_and(|word| {
+                    preposition(&[word]).is_none() && !["and", ",", ".", "while"].contains(&word.as_str())
+                })
+            })
+            .filter_map(|at| self.longest_noun_at(at))
+            .collect();
+        nouns.is_empty() || nouns.iter().any(|(noun, _, _)| self.can_be(noun, wants))
+    }
+
+    fn can_be(&self, noun: &super::lexicon::Noun, wants: &str) -> bool {
+        self.has_affordance(noun, wants)
+            || wants == "toggleable" && noun.kinds.iter().any(|kind| self.lexicon.control(kind).is_some())
     }
 
     /// Whether a clause rather than another noun phrase starts at the position.
@@ -228,9 +252,10 @@ impl<'a> Parser<'a> {
             unknown: Vec::new(),
             words: Vec::new(),
         };
+        self.leading_places(&mut clause);
         let is_noun_first = self.longest_noun().is_some() && !self.clause_starts_here(previous.is_none());
         if let (Some((_, verbs, length)), false) = (self.verbs_here(), is_noun_first) {
-            clause.verb_text = self.text_between(start, start + length);
+            clause.verb_text = self.text_between(self.position, self.position + length);
             clause.verbs = verbs;
             self.position += length;
         } else if let Some(word) = self.peek()
@@ -258,6 +283,26 @@ impl<'a> Parser<'a> {
         clause.text = self.text_between(start, self.position);
         clause.words = self.words[start..self.position].to_vec();
         (!clause.text.is_empty()).then_some(clause)
+    }
+
+    /// "with a card in hand, turn on the lamp": places said before the verb.
+    fn leading_places(&mut self, clause: &mut Clause<'a>) {
+        let start = self.position;
+        while let Some((relation, length)) = preposition(&self.rest()) {
+            if matches!(relation, Relation::To | Relation::For) || self.verbs_here().is_some() {
+                break;
+            }
+            self.position += length;
+            let Some(phrase) = self.phrase(0) else { break };
+            clause.places.push(Place::new(relation, "", phrase));
+        }
+        if self.peek() == Some(",") {
+            self.position += 1;
+        }
+        if self.verbs_here().is_none() {
+            clause.places.clear();
+            self.position = start;
+        }
     }
 
     /// Objects, places, particles and complements, up to the next clause.
@@ -380,7 +425,16 @@ impl<'a> Parser<'a> {
             self.position += 1;
             return true;
         }
+        let first = clause.verb_text.split(' ').next().unwrap_or_default().to_owned();
+        if let Some((verb, length)) = self.long_particle(&first) {
+            clause.verbs = vec![verb];
+            self.position += length;
+            return true;
+        }
         let next = self.word_at(1);
+        if preposition(&self.rest()).is_some_and(|(_, length)| length > 1) {
+            return false;
+        }
         let free = next.is_none_or(|next| {
             [",", ".", "and", "then", "before", "after", "while", "but", "again", "please", "so"].contains(&next)
                 || preposition(&[next]).is_some()
@@ -389,12 +443,13 @@ impl<'a> Parser<'a> {
         if clause.verb_text.is_empty() || !free {
             return false;
         }
-        let first = clause.verb_text.split(' ').next().unwrap_or_default();
         let with_particle: Vec<&Verb> = self
             .lexicon
-            .verbs(first)
+            .verbs(&first)
             .into_iter()
-            .filter(|(_, particles, _)| particles.len() == 1 && particles[0] == word)
+            .filter(|(_, particles, verb)| {
+                particles.len() == 1 && particles[0] == word && self.objects_may_fit(clause, verb)
+            })
             .map(|(_, _, verb)| verb)
             .collect();
         if with_particle.is_empty() || clause.verb_text.contains(' ') {
@@ -410,6 +465,24 @@ impl<'a> Parser<'a> {
         clause.verb_text = format!("{first} {word}");
         self.position += 1;
         true
+    }
+
+    /// "put it where it belongs": more than one word behind the object.
+    fn long_particle(&self, first: &str) -> Option<(&'a Verb, usize)> {
+        let rest = self.rest();
+        self.lexicon.verbs(first).into_iter().find_map(|(_, particles, verb)| {
+            let fits = particles.len() > 2 && particles.iter().zip(&rest).all(|(a, b)| a == b);
+            (fits && rest.len() >= particles.len()).then_some((verb, particles.len()))
+        })
+    }
+
+    fn objects_may_fit(&self, clause: &Clause<'a>, verb: &Verb) -> bool {
+        let Some(wants) = &verb.wants else { return true };
+        clause.objects.is_empty()
+            || clause.objects.iter().any(|phrase| match &phrase.head {
+                super::syntax::Head::Noun(noun) => self.can_be(noun, wants),
+                _ => true,
+            })
     }
 
     /// "keep the fridge closed", "make sure the light is off", "the lamp is on".
@@ -455,11 +528,25 @@ impl<'a> Parser<'a> {
         let start = self.position;
         self.position += length;
         let Some(phrase) = self.phrase(0) else {
-            // A preposition with nothing behind it is an adverb: "with a spoon inside".
+            // A preposition with nothing behind it is an adverb: "with a spoon inside"; or what it is in was
+            // spoken of before: "put the tomato in".
             self.position = start + length;
+            let ends = self.peek().is_none_or(|word| [".", ",", "and"].contains(&word));
+            if ends && self.wants_place && clause.places.is_empty() && &self.words[start] == "in" {
+                let it = Phrase::bare(super::syntax::Head::Pronoun { plural: false }, "it");
+                clause.places.push(Place::new(Relation::In, "in", it));
+            }
             return true;
         };
-        clause.places.push(Place { relation, phrase });
+        // "a mug in the sink with a spoon in it": the spoon is in the mug.
+        if relation == Relation::With
+            && self.skip_back_reference()
+            && let Some(object) = clause.objects.last_mut()
+        {
+            object.with.push(phrase);
+            return true;
+        }
+        clause.places.push(Place::new(relation, &self.words[start], phrase));
         self.more_places(clause, relation);
         true
     }
@@ -476,7 +563,7 @@ impl<'a> Parser<'a> {
                 self.position = start;
                 return;
             };
-            let another_pair = preposition(&self.rest()).is_some() || matches!(self.peek(), Some("on" | "off"));
+            let another_pair = relation != Relation::From && preposition(&self.rest()).is_some() || matches!(self.peek(), Some("on" | "off"));
             if another_pair {
                 self.position = start;
                 return;
@@ -485,7 +572,7 @@ impl<'a> Parser<'a> {
             if movable && relation != Relation::With {
                 clause.objects.push(phrase);
             } else {
-                clause.places.push(Place { relation, phrase });
+                clause.places.push(Place::new(relation, "", phrase));
             }
         }
     }

@@ -275,7 +275,13 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             matches!(&place.phrase.head, Head::Noun(noun)
                 if noun.kinds.iter().any(|kind| kind == "DeskLamp" || kind == "FloorLamp"))
         };
-        let light = clause.places.iter().find(is_light).cloned();
+        let with: Vec<Place> = clause
+            .objects
+            .iter()
+            .flat_map(|phrase| &phrase.with)
+            .map(|phrase| Place::new(Relation::With, "with", phrase.clone()))
+            .collect();
+        let light = clause.places.iter().chain(&with).find(is_light).cloned();
         let at: Vec<Place> = clause
             .places
             .iter()
@@ -312,10 +318,35 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             let target = self.switch_of(entity, &verb.set);
             let states = self.discourse.adapted_states(target, verb);
             self.add_states(target, &states);
+            self.discourse.entities[target].asked.extend(states);
             changed.push(target);
         }
+        self.put_down_tools(verb);
+        self.hold_what_is_with(clause, verb);
         let places = self.places_spoken_of(&clause.places);
         Spoken { objects: changed, places, placed: false }
+    }
+
+    /// What was picked up as the verb's tool is not held for its own sake.
+    fn put_down_tools(&mut self, verb: &Verb) {
+        let entities = &self.discourse.entities;
+        self.facts.retain(|fact| {
+            fact.change != Change::Held || !entities[fact.entity].kinds.iter().any(|kind| verb.tools.contains(kind))
+        });
+    }
+
+    /// "turn on the lamp with a book in hand": the book is held.
+    fn hold_what_is_with(&mut self, clause: &Clause<'a>, verb: &Verb) {
+        if verb.wants.as_deref() != Some("toggleable") {
+            return;
+        }
+        let with = clause.objects.iter().flat_map(|phrase| &phrase.with);
+        let places = clause.places.iter().filter(|place| place.relation == Relation::With);
+        let phrases: Vec<Phrase> = with.chain(places.map(|place| &place.phrase)).cloned().collect();
+        for phrase in phrases {
+            let held = self.discourse.mention(&phrase, &[], Some("pickupable"));
+            self.take(&held);
+        }
     }
 
     /// What is switched when an entity is to be on or off.

@@ -49,7 +49,7 @@ pub fn singulars(word: &str) -> Vec<String> {
         return vec![(*singular).to_owned()];
     }
     let mut found = Vec::new();
-    if word.len() > 3
+    if word.len() > 2
         && let Some(stem) = word.strip_suffix('s')
         && !stem.ends_with('s')
     {

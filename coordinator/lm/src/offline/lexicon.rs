@@ -130,6 +130,10 @@ struct File {
     controls: BTreeMap<String, String>,
     #[serde(default)]
     homes: BTreeMap<String, Vec<String>>,
+    #[serde(default)]
+    under: BTreeMap<String, String>,
+    #[serde(default)]
+    inside: BTreeMap<String, Vec<String>>,
 }
 
 /// The lexicon.
@@ -144,6 +148,8 @@ pub struct Lexicon {
     situations: Vec<Situation>,
     controls: BTreeMap<String, String>,
     homes: BTreeMap<String, Vec<String>>,
+    under: BTreeMap<String, String>,
+    inside: BTreeMap<String, Vec<String>>,
     vocabulary: BTreeSet<String>,
 }
 
@@ -193,6 +199,8 @@ impl Lexicon {
         }
         self.controls.extend(file.controls);
         self.homes.extend(file.homes);
+        self.under.extend(file.under);
+        self.inside.extend(file.inside);
         for situation in file.situation {
             for word in situation.vocabulary() {
                 self.vocabulary.insert(word);
@@ -200,6 +208,11 @@ impl Lexicon {
             self.situations.push(situation);
         }
         Ok(())
+    }
+
+    /// Whether a type is known by its own name.
+    pub fn knows_type(&self, kind: &str) -> bool {
+        self.nouns.contains_key(&squash(kind))
     }
 
     /// Makes a type known by its own name, unless the name has a meaning already.
@@ -244,6 +257,12 @@ impl Lexicon {
         inflect::singulars(last)
             .iter()
             .find_map(|singular| self.nouns.get(&format!("{front}{singular}")))
+            .or_else(|| {
+                // "credits cards": plural all over.
+                let all: Option<Vec<String>> =
+                    words.iter().map(|word| inflect::singulars(word).into_iter().next()).collect();
+                all.filter(|all| all.len() > 1).and_then(|all| self.nouns.get(&all.concat()))
+            })
             .map(|noun| (noun, true))
     }
 
@@ -292,6 +311,21 @@ impl Lexicon {
     pub fn homes(&self, kind: &str) -> impl Iterator<Item = &str> {
         let own = self.homes.get(kind).into_iter().flatten();
         own.chain(self.homes.get("anything").into_iter().flatten()).map(String::as_str)
+    }
+
+    /// What a word means for something inside a vessel.
+    pub fn inside(&self, word: &str) -> Option<&[String]> {
+        self.inside.get(word).map(Vec::as_slice)
+    }
+
+    /// What is meant by "under" a thing.
+    pub fn under(&self, kind: &str) -> Option<&str> {
+        self.under.get(kind).map(String::as_str)
+    }
+
+    /// The surfaces something may stand on "beside" a thing, the likelier first.
+    pub fn beside(&self) -> impl Iterator<Item = &str> {
+        self.homes.get("beside").into_iter().flatten().map(String::as_str)
     }
 
     /// The situations.

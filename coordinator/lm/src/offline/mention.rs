@@ -145,9 +145,10 @@ impl<'a> Discourse<'a> {
                 continue;
             }
             let mut narrowed = phrase.clone();
+            narrowed.indefinite |= phrase.quantity == Quantity::One && !phrase.definite;
+            let kinds = self.lexicon.inside(&noun.word).unwrap_or(&noun.kinds);
             narrowed.head = Head::Noun(Noun {
-                kinds: noun
-                    .kinds
+                kinds: kinds
                     .iter()
                     .filter(|content| scene.has(content) && fitting.iter().any(|kind| scene.accepts(kind, content)))
                     .cloned()
@@ -229,7 +230,7 @@ impl<'a> Discourse<'a> {
         if phrase.other
             || noun.class && phrase.quantity != Quantity::One && !phrase.definite
             || (phrase.indefinite && !sliced_again)
-            || matches!(phrase.quantity, Quantity::Count(_) | Quantity::Plural)
+            || !sliced_again && matches!(phrase.quantity, Quantity::Count(_) | Quantity::Plural)
         {
             return None;
         }
@@ -448,6 +449,16 @@ impl<'a> Discourse<'a> {
         {
             return spoken.places.clone();
         }
+        // "put the pen in the cup and put them on the desk": again the cup, with what is in it.
+        if let Some(spoken) = last
+            && spoken.placed
+            && plural
+            && wants == Some("pickupable")
+            && spoken.objects.len() == 1
+            && fits(self, &spoken.places)
+        {
+            return spoken.places.clone();
+        }
         if plural {
             let mut all: Vec<usize> = Vec::new();
             for spoken in self.spoken.iter().rev() {
@@ -512,8 +523,9 @@ impl Discourse<'_> {
         let mut best: Option<(usize, &str, &str)> = None;
         for (i, thing) in things.iter().enumerate() {
             for (j, place) in places.iter().enumerate() {
-                if self.scene.accepts(place, thing) && best.is_none_or(|(rank, _, _)| i + j < rank) {
-                    best = Some((i + j, thing, place));
+                let rank = 2 * (i + j) + if self.scene.surely_accepts(place, thing) { 0 } else { 3 };
+                if self.scene.accepts(place, thing) && best.is_none_or(|(known, _, _)| rank < known) {
+                    best = Some((rank, thing, place));
                 }
             }
         }

@@ -71,11 +71,16 @@ impl Offline {
     /// What it makes of an instruction.
     pub fn read(&self, request: &Request) -> Answer {
         let scene = Scene::new(&request.objects, &request.robots);
-        let mut lexicon = self.lexicon.clone();
-        for kind in scene.kinds() {
-            lexicon.add_type(kind);
-        }
-        let reading = read(&request.instruction, &lexicon, &scene);
+        let unknown: Vec<&str> = scene.kinds().filter(|kind| !self.lexicon.knows_type(kind)).collect();
+        let reading = if unknown.is_empty() {
+            read(&request.instruction, &self.lexicon, &scene)
+        } else {
+            let mut lexicon = self.lexicon.clone();
+            for kind in unknown {
+                lexicon.add_type(kind);
+            }
+            read(&request.instruction, &lexicon, &scene)
+        };
         reading.answer(request.assume)
     }
 }
@@ -168,6 +173,7 @@ fn one_clause<'a>(interpreter: &mut Interpreter<'_, 'a>, index: usize, clauses: 
     let words = situation::words_of(&clause.words);
     if let Some((strong, _)) = situation::best(situations, &words, true)
         && !clause.negated
+        && is_weak(clause, lexicon)
         && interpreter.situation(index, strong)
     {
         interpreter.discourse.spoken.push(Spoken::default());
@@ -189,6 +195,18 @@ fn one_clause<'a>(interpreter: &mut Interpreter<'_, 'a>, index: usize, clauses: 
     if failed && interpreter.facts.len() == before.facts.len() && !clause.negated && !is_mere_step(clause) {
         interpreter.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.4);
     }
+}
+
+/// Whether a clause says too little by itself to stand against a situation: no verb, a weak one with nothing
+/// it can be done to, or "everything".
+fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
+    let first = clause.verb_text.split(' ').next().unwrap_or_default();
+    let weak = inflect::bases(first).iter().any(|(base, _)| lexicon.is_small("weak", &[base]));
+    let plain = |phrase: &syntax::Phrase| !matches!(phrase.head, syntax::Head::Everything | syntax::Head::Room);
+    let places = clause.verbs.iter().any(|verb| verb.act == Act::Place)
+        && clause.objects.iter().any(plain)
+        && clause.places.iter().any(|place| matches!(place.phrase.head, syntax::Head::Noun(_)));
+    clause.verbs.is_empty() || weak && !places
 }
 
 /// Whether a clause may well have no goal of its own: going somewhere, taking what is put down later.

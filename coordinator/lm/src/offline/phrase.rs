@@ -3,6 +3,7 @@
 use super::clause::Parser;
 use super::inflect;
 use super::lexicon::{LONGEST, Noun};
+use super::text::POSSESSIVE;
 use super::syntax::{Head, Phrase, Place, Quantity, is_determiner, is_function_word, preposition};
 
 /// Noun phrases within noun phrases go no deeper than this.
@@ -57,6 +58,10 @@ impl Parser<'_> {
     fn head(&mut self, front: &mut Front) -> Option<Head> {
         let start = self.position;
         while let Some(word) = self.peek() {
+            if word == "," && self.position > start && self.list_of_modifiers() {
+                self.position += 1;
+                continue;
+            }
             if let Some(head) = self.pronoun(word, front) {
                 return Some(head);
             }
@@ -87,6 +92,9 @@ impl Parser<'_> {
                 self.position += 1;
                 front.plural |= word.ends_with('s');
                 front.sliced = true;
+                if self.longest_noun().is_some_and(|(noun, _, _)| self.has_affordance(&noun, "sliceable")) {
+                    continue;
+                }
                 return Some(Head::Slices);
             }
             if let Some(length) = self.lexicon.longest_small("modifiers", &self.rest())
@@ -102,6 +110,17 @@ impl Parser<'_> {
             return self.unknown_head(word, start);
         }
         None
+    }
+
+    /// "the leftmost, lower drawer": a comma between modifiers.
+    fn list_of_modifiers(&self) -> bool {
+        let before = self.position.checked_sub(1).and_then(|at| self.words.get(at));
+        let is_modifier = |word: &str| {
+            self.lexicon.is_small("modifiers", &[word]) || self.lexicon.adjective(&[word]).is_some()
+        };
+        before.is_some_and(|word| is_modifier(word))
+            && self.word_at(1).is_some_and(is_modifier)
+            && (2..5).any(|at| self.longest_noun_at(self.position + at).is_some())
     }
 
     /// A word nobody knows: a modifier when a noun follows at once, else the head.
@@ -144,8 +163,11 @@ impl Parser<'_> {
             "them" | "they" => Head::Pronoun { plural: true },
             "this" | "that" | "one" if alone && self.can_be_pronoun() => Head::Pronoun { plural: false },
             "these" | "those" | "both" | "ones" | "all" if alone => Head::Pronoun { plural: true },
-            "everything" | "anything" | "things" | "stuff" | "items" | "objects" | "item" | "thing" | "object" => {
-                front.plural |= word.ends_with('s');
+            "everything" | "anything" | "stuff" => Head::Everything,
+            "things" | "items" | "objects"
+                if front.phrase.definite || front.quantity == Some(Quantity::All) =>
+            {
+                front.plural = true;
                 Head::Everything
             }
             "others" | "rest" if next != Some("of") => {
@@ -258,6 +280,14 @@ impl Parser<'_> {
         self.position += length;
         let (mut noun, mut plural) = (noun, plural);
         while let Some(word) = self.peek() {
+            if word == POSSESSIVE {
+                self.position += 1;
+                if self.noun_follows(0) {
+                    return self.head(front).unwrap_or(Head::Noun(noun));
+                }
+                plural = true;
+                continue;
+            }
             if self.is_slices(word) && self.has_affordance(&noun, "sliceable") {
                 front.sliced = true;
                 plural |= word.ends_with('s');
@@ -311,10 +341,16 @@ impl Parser<'_> {
 
     /// Whether a noun, or adjectives and a noun, follow behind `offset` words.
     fn noun_follows(&self, offset: usize) -> bool {
-        (offset..offset + 4).any(|at| {
-            self.longest_noun_at(self.position + at).is_some()
-                || self.word_at(at).is_some_and(|word| self.is_slices(word))
-        })
+        (offset..offset + 4)
+            .take_while(|&at| {
+                self.word_at(at).is_some_and(|word| {
+                    preposition(&[word]).is_none() && !is_determiner(word) && !["and", ",", "."].contains(&word)
+                })
+            })
+            .any(|at| {
+                self.longest_noun_at(self.position + at).is_some()
+                    || self.word_at(at).is_some_and(|word| self.is_slices(word))
+            })
     }
 
     /// What follows the head: contents, places, exceptions.
@@ -327,6 +363,14 @@ impl Parser<'_> {
                     if let Some(of) = self.phrase(depth + 1) {
                         merge_of(phrase, of);
                     }
+                }
+                Some(",")
+                    if matches!(self.word_at(1), Some("containing" | "holding"))
+                        || self.word_at(1) == Some("with") && self.is_vessel(phrase) =>
+                {
+                    self.position += 2;
+                    phrase.with.extend(self.phrases(depth + 1));
+                    let _ = self.skip_back_reference();
                 }
                 Some("containing" | "holding") => {
                     self.position += 1;
@@ -344,7 +388,7 @@ impl Parser<'_> {
                         return;
                     }
                     phrase.with.extend(with);
-                    self.skip_back_reference();
+                    let _ = self.skip_back_reference();
                 }
                 Some("that" | "which" | "thats") if matches!(self.word_at(1), Some("is" | "are" | "was" | "were")) => {
                     self.position += 2;
@@ -357,7 +401,7 @@ impl Parser<'_> {
                 Some("that" | "which") if matches!(self.word_at(1), Some("has" | "contains" | "have" | "holds")) => {
                     self.position += 2;
                     phrase.with.extend(self.phrases(depth + 1));
-                    self.skip_back_reference();
+                    let _ = self.skip_back_reference();
                 }
                 Some("sitting" | "located" | "lying" | "laying" | "standing" | "resting" | "placed" | "found")
                     if self.position + 1 < self.words.len() && preposition(&self.rest()[1..]).is_some() =>
@@ -386,8 +430,15 @@ impl Parser<'_> {
         }
     }
 
+    fn is_vessel(&self, phrase: &Phrase) -> bool {
+        matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
+            self.scene.affords(kind, "receptacle") && self.scene.affords(kind, "pickupable")
+        }))
+    }
+
     /// `in it`, `on it`, `inside`: says again where the contents are.
-    fn skip_back_reference(&mut self) {
+    pub(super) fn skip_back_reference(&mut self) -> bool {
+        let start = self.position;
         if let Some((_, length)) = preposition(&self.rest()) {
             match self.word_at(length) {
                 Some("it" | "them") => self.position += length + 1,
@@ -397,6 +448,7 @@ impl Parser<'_> {
                 _ => {}
             }
         }
+        self.position > start
     }
 
     fn where_it_is(&mut self, phrase: &mut Phrase, depth: usize) {
@@ -404,7 +456,7 @@ impl Parser<'_> {
             let start = self.position;
             self.position += length;
             match self.phrase(depth + 1) {
-                Some(at) => phrase.at.push(Place { relation, phrase: at }),
+                Some(at) => phrase.at.push(Place::new(relation, "", at)),
                 None => self.position = start,
             }
         }

@@ -76,6 +76,11 @@ impl<'a> Scene<'a> {
         })
     }
 
+    /// Whether a receptacle type is known to take a type.
+    pub fn surely_accepts(&self, receptacle: &str, kind: &str) -> bool {
+        self.accepts(receptacle, kind) && self.of_kind(receptacle).iter().any(|object| !object.accepts.is_empty())
+    }
+
     /// Whether one of the team has the skill; a team of no stated skills is taken to have all.
     pub fn can(&self, skill: &str) -> bool {
         self.skills.is_empty() || self.skills.contains(skill)

@@ -109,6 +109,18 @@ pub struct Place {
     pub relation: Relation,
     /// What of.
     pub phrase: Phrase,
+    /// Whether it is `under` or the like.
+    pub under: bool,
+    /// Whether it is `at`: there, if nothing else is said.
+    pub there: bool,
+}
+
+impl Place {
+    /// A place by its preposition.
+    pub fn new(relation: Relation, preposition: &str, phrase: Phrase) -> Self {
+        let under = matches!(preposition, "under" | "underneath" | "below" | "beneath");
+        Self { relation, phrase, under, there: preposition == "at" }
+    }
 }
 
 /// How a clause follows the one before it.
@@ -226,7 +238,7 @@ const PREPOSITIONS: [(&str, Relation); 82] = [
     ("over", Relation::In),
     ("in", Relation::In),
     ("on", Relation::In),
-    ("at", Relation::In),
+    ("at", Relation::Near),
     ("from", Relation::From),
     ("off", Relation::From),
     ("with", Relation::With),
@@ -249,7 +261,7 @@ pub fn preposition(words: &[&str]) -> Option<(Relation, usize)> {
     })
 }
 
-const FUNCTION_WORDS: [&str; 97] = [
+const FUNCTION_WORDS: [&str; 98] = [
     "a", "an", "the", "this", "that", "these", "those", "my", "your", "our", "his", "her", "their", "its",
     "it", "them", "they", "him", "me", "you", "we", "us", "i", "and", "or", "but", "then", "if", "so", "when",
     "once", "until", "while", "before", "after", "as", "is", "are", "be", "was", "were", "been", "being", "am",
@@ -257,7 +269,7 @@ const FUNCTION_WORDS: [&str; 97] = [
     "other", "others", "rest", "of", "except", "than", "either", "one", "ones", "which", "who", "what", "where",
     "there", "here", "have", "has", "had", "can", "could", "will", "would", "shall", "should", "may", "might",
     "must", "let", "without", "everything", "anything", "nothing", "something", "thing", "things", "few",
-    "several", "couple", "containing",
+    "several", "couple", "containing", "'s",
 ];
 
 /// Whether a word belongs to a closed class.

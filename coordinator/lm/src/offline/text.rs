@@ -7,6 +7,12 @@ use super::scene::Scene;
 /// The longest instruction read, in bytes.
 pub const LONGEST_INSTRUCTION: usize = 4096;
 
+/// The token behind a noun that ends in "'s".
+pub const POSSESSIVE: &str = "'s";
+
+/// Words whose "'s" is "is" or "us".
+const CONTRACTED: [&str; 9] = ["it", "that", "there", "let", "what", "here", "he", "she", "who"];
+
 /// A word or a mark.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Token {
@@ -26,9 +32,14 @@ pub fn tokens(instruction: &str) -> Vec<Token> {
         }
         let typed = std::mem::take(word);
         let lower = typed.to_lowercase();
-        let text = lower.trim_matches('\'').trim_end_matches("'s").replace('\'', "");
+        let whole = lower.trim_matches('\'');
+        let text = whole.trim_end_matches("'s").replace('\'', "");
+        let possessive = whole.ends_with("'s") && !CONTRACTED.contains(&text.as_str());
         if !text.is_empty() {
             found.push(Token { text, typed });
+        }
+        if possessive {
+            found.push(Token { text: POSSESSIVE.to_owned(), typed: String::new() });
         }
     };
     for c in instruction.chars() {
@@ -165,6 +176,6 @@ mod tests {
     fn marks_and_contractions_are_split() {
         let words: Vec<String> =
             tokens("Don't open it; it's Tom's CD's & book.").into_iter().map(|t| t.text).collect();
-        assert_eq!(words, ["dont", "open", "it", ".", "it", "tom", "cd", "and", "book", "."]);
+        assert_eq!(words, ["dont", "open", "it", ".", "it", "tom", "'s", "cd", "'s", "and", "book", "."]);
     }
 }
