@@ -92,7 +92,7 @@ fn measured_scene(number: u32, file: &Value) -> Scene {
     let names = numbered(&list);
     let mut objects: Vec<SceneObject> = list.iter().map(|o| measured_object(o, &list, &names)).collect();
     connect(&mut objects);
-    objects.sort_by(|a, b| order(&a.name).cmp(&order(&b.name)));
+    objects.sort_by_key(|o| order(&o.name));
     Scene {
         scene: format!("FloorPlan{number}"),
         room: room(number),
@@ -222,7 +222,7 @@ fn ruled_scene(number: u32, counted: &Value, layout: &Value, known: &Value) -> S
     }
     connect(&mut objects);
     put_in_place(&mut objects, &scene, known);
-    objects.sort_by(|a, b| order(&a.name).cmp(&order(&b.name)));
+    objects.sort_by_key(|o| order(&o.name));
     let what = if counted.is_null() {
         "By AI2-THOR 2.1 as ALFRED used it: object types and the number and positions of receptacles. By rule: \
          one instance of every other type (four burners and knobs)"

@@ -6,16 +6,17 @@
 ; 1. Where robots are. (at r x) means that r stands within reach of x. Going to x brings r to x, to the
 ;    container x lies in and to whatever lies in x. Every robot is always at the floor it stands on.
 ; 2. Where things are. (in x c) is direct: x lies in or on c. What is held is nowhere: nobody stands at it.
-; 3. What doors do. A thing is `exposed` while no closed door is between it and the room; a container is
-;    `accessible` while things can be put into it. Opening and closing maintain both, so that no action
-;    needs a disjunction. The same is true of `placed`, `pickupable`, `can-open`, `can-switch-on`,
-;    `heating`, `cooling`, `rinsing`, `armed`: facts that actions keep, never goals.
+; 3. What can be reached. A thing is `exposed` while it stands on furniture, or in furniture that is open, and
+;    is not held; a container is `accessible` while it has no closed door of its own. Things are put into and
+;    taken out of what is exposed and accessible, and worked on (sliced, switched, opened, washed …) while they
+;    are exposed: what lies in a bowl can be taken out and nothing else. That keeps every door to one level.
 ; 4. What appliances do. They act on what lies in them, and on what lies in that (an egg in a pan on a
 ;    burner), at the moment they are switched on and whenever something is put there while they are on.
 ; 5. What cannot be undone. Slicing, breaking, cooking. A sliced object keeps its name and its type.
 ;
-; How far nesting is followed: doors and hands reach three levels (a spoon in a mug in a box), heat, cold and
-; water two.
+; `exposed`, `accessible`, `placed`, `pickupable`, `can-open`, `can-switch-on`, `heating`, `cooling`, `rinsing`
+; and `armed` are kept by the actions, so that no precondition needs a disjunction or a look into contents.
+; They are never goals.
 
 (define (domain household)
   (:requirements :strips :typing :equality :negative-preconditions :conditional-effects)
@@ -68,9 +69,9 @@
     (moved ?x - thing)                ; pushed or pulled since the start
 
     ; --- kept by the actions
-    (placed ?x - thing)               ; at a place; false while it, or what it lies in, is held
-    (exposed ?x - thing)              ; no closed door between it and the room
-    (accessible ?c - thing)           ; has no door, or an open one
+    (placed ?x - thing)               ; somewhere one can go; false while it is held
+    (exposed ?x - thing)              ; on furniture or in open furniture
+    (accessible ?c - thing)           ; has no door, or an open one, and is whole
     (pickupable ?x - thing)           ; not once it is in pieces
     (can-open ?x - thing)             ; not while it runs, for a microwave
     (can-switch-on ?x - thing)        ; not while open, for a microwave; not once broken
@@ -89,6 +90,7 @@
     ; --- never changed
     (openable ?x - thing)
     (encloses ?c - thing)             ; its door shuts its contents in (a toilet's lid does not)
+    (fixed ?c - thing)                ; furniture, fixtures and the floor
     (toggleable ?x - thing)
     (sliceable ?x - thing)
     (breakable ?x - thing)
@@ -122,7 +124,7 @@
       (forall (?y - thing) (not (at ?r ?y)))
       (forall (?f - Floor) (at ?r ?f))
       (at ?r ?x)
-      (forall (?c - thing) (when (in ?x ?c) (at ?r ?c)))
+      (forall (?c - thing) (when (and (in ?x ?c) (placed ?c)) (at ?r ?c)))
       (forall (?y - item) (when (in ?y ?x) (at ?r ?y)))))
 
   ; ---------------------------------------------------------------- carrying
@@ -130,18 +132,15 @@
   (:action PickupObject
     :parameters (?r - robot ?x - item ?c - thing)
     :precondition (and (can-lift ?r ?x) (hand-free ?r) (pickupable ?x)
-                       (in ?x ?c) (at ?r ?x) (exposed ?x))
+                       (in ?x ?c) (at ?r ?x) (at ?r ?c) (exposed ?c) (accessible ?c))
     :effect (and
       (holding ?r ?x)
       (not (in ?x ?c))
       (not (placed ?x))
+      (not (exposed ?x))
       (not (heating ?x))
       (not (cooling ?x))
       (forall (?a - robot) (not (at ?a ?x)))
-      (forall (?y - item) (when (in ?y ?x) (not (placed ?y))))
-      (forall (?a - robot ?y - item) (when (in ?y ?x) (not (at ?a ?y))))
-      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (not (placed ?z))))
-      (forall (?a - robot ?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (not (at ?a ?z))))
       (when (one-handed ?r) (not (hand-free ?r)))
       (when (and (many-handed ?r) (free-hands ?r one)) (not (hand-free ?r)))
       (forall (?n ?m - count)
@@ -158,8 +157,7 @@
       (in ?x ?c)
       (placed ?x)
       (at ?r ?x)
-      (forall (?y - item) (when (in ?y ?x) (and (placed ?y) (at ?r ?y))))
-      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
+      (when (fixed ?c) (exposed ?x))
       ; into heat
       (when (heating ?c) (and (hot ?x) (not (cold ?x))))
       (when (and (heating ?c) (cookable ?x)) (cooked ?x))
@@ -191,9 +189,8 @@
       (not (holding ?r ?x))
       (forall (?f - Floor) (in ?x ?f))
       (placed ?x)
+      (exposed ?x)
       (at ?r ?x)
-      (forall (?y - item) (when (in ?y ?x) (and (placed ?y) (at ?r ?y))))
-      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
       (hand-free ?r)
       (forall (?n ?m - count)
         (when (and (many-handed ?r) (next ?n ?m) (free-hands ?r ?n))
@@ -210,8 +207,7 @@
       (not (holding ?r ?x))
       (forall (?f - Floor) (in ?x ?f))
       (placed ?x)
-      (forall (?y - item) (when (in ?y ?x) (placed ?y)))
-      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
+      (exposed ?x)
       (when (breakable ?x) (and
         (broken ?x)
         (not (toggled ?x))
@@ -261,20 +257,17 @@
     :parameters (?r ?h - robot ?x - item ?c - thing)
     :precondition (and (can-lift-together ?r ?h ?x) (supporting ?h ?x)
                        (hand-free ?r) (mobile ?r) (pickupable ?x)
-                       (in ?x ?c) (at ?r ?x) (exposed ?x))
+                       (in ?x ?c) (at ?r ?x) (at ?r ?c) (exposed ?c) (accessible ?c))
     :effect (and
       (holding ?r ?x)
       (helping ?h ?r)
       (forall (?y - thing) (not (at ?h ?y)))
       (not (in ?x ?c))
       (not (placed ?x))
+      (not (exposed ?x))
       (not (heating ?x))
       (not (cooling ?x))
       (forall (?a - robot) (not (at ?a ?x)))
-      (forall (?y - item) (when (in ?y ?x) (not (placed ?y))))
-      (forall (?a - robot ?y - item) (when (in ?y ?x) (not (at ?a ?y))))
-      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (not (placed ?z))))
-      (forall (?a - robot ?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (not (at ?a ?z))))
       (when (one-handed ?r) (not (hand-free ?r)))
       (when (and (many-handed ?r) (free-hands ?r one)) (not (hand-free ?r)))
       (forall (?n ?m - count)
@@ -297,8 +290,7 @@
       (in ?x ?c)
       (placed ?x)
       (at ?r ?x)
-      (forall (?y - item) (when (in ?y ?x) (and (placed ?y) (at ?r ?y))))
-      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
+      (when (fixed ?c) (exposed ?x))
       ; into heat
       (when (heating ?c) (and (hot ?x) (not (cold ?x))))
       (when (and (heating ?c) (cookable ?x)) (cooked ?x))
@@ -335,12 +327,7 @@
       (open ?x)
       (when (runs-closed ?x) (not (can-switch-on ?x)))
       (when (encloses ?x) (accessible ?x))
-      (forall (?y - item) (when (and (encloses ?x) (in ?y ?x)) (exposed ?y)))
-      (forall (?y - vessel ?z - item)
-        (when (and (encloses ?x) (in ?y ?x) (in ?z ?y) (accessible ?y)) (exposed ?z)))
-      (forall (?y ?w - vessel ?z - item)
-        (when (and (encloses ?x) (in ?y ?x) (in ?w ?y) (in ?z ?w) (accessible ?y) (accessible ?w))
-              (exposed ?z)))))
+      (forall (?y - item) (when (and (encloses ?x) (fixed ?x) (in ?y ?x)) (exposed ?y)))))
 
   (:action CloseObject
     :parameters (?r - robot ?x - thing)
@@ -349,11 +336,7 @@
       (not (open ?x))
       (when (runs-closed ?x) (can-switch-on ?x))
       (when (encloses ?x) (not (accessible ?x)))
-      (forall (?y - item) (when (and (encloses ?x) (in ?y ?x)) (not (exposed ?y))))
-      (forall (?y - vessel ?z - item)
-        (when (and (encloses ?x) (in ?y ?x) (in ?z ?y)) (not (exposed ?z))))
-      (forall (?y ?w - vessel ?z - item)
-        (when (and (encloses ?x) (in ?y ?x) (in ?w ?y) (in ?z ?w)) (not (exposed ?z))))))
+      (forall (?y - item) (when (and (encloses ?x) (fixed ?x) (in ?y ?x)) (not (exposed ?y))))))
 
   (:action SwitchOn
     :parameters (?r - robot ?x - thing)
@@ -448,10 +431,7 @@
       (not (mobile ?r))
       (forall (?y - thing) (not (at ?r ?y)))
       (forall (?x - item ?f - Floor)
-        (when (holding ?r ?x) (and (not (holding ?r ?x)) (in ?x ?f) (placed ?x))))
-      (forall (?x - item ?y - item) (when (and (holding ?r ?x) (in ?y ?x)) (placed ?y)))
-      (forall (?x - item ?y - vessel ?z - item)
-        (when (and (holding ?r ?x) (in ?y ?x) (in ?z ?y)) (placed ?z)))
+        (when (holding ?r ?x) (and (not (holding ?r ?x)) (in ?x ?f) (placed ?x) (exposed ?x))))
       ; it led: its helper is free again
       (forall (?h - robot) (when (helping ?h ?r) (and (not (helping ?h ?r)) (mobile ?h) (hand-free ?h))))
       (forall (?h - robot ?n ?m - count)
@@ -467,6 +447,4 @@
               (and (not (free-hands ?l ?n)) (free-hands ?l ?m))))
       (forall (?l - robot ?x - item ?f - Floor)
         (when (and (helping ?r ?l) (supporting ?r ?x))
-              (and (not (holding ?l ?x)) (in ?x ?f) (placed ?x))))
-      (forall (?l - robot ?x - item ?y - item)
-        (when (and (helping ?r ?l) (supporting ?r ?x) (in ?y ?x)) (placed ?y))))))
+              (and (not (holding ?l ?x)) (in ?x ?f) (placed ?x) (exposed ?x)))))))

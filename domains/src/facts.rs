@@ -59,6 +59,7 @@ impl Facts {
             self.when(thing.can(affordance), predicate, &[x]);
         }
         self.when(kinds::encloses(kind), "encloses", &[x]);
+        self.when(!thing.can("pickupable"), "fixed", &[x]);
         self.when(thing.can("pickupable") || thing.can("moveable"), "pushable", &[x]);
         self.when(thing.can("breakable") && kinds::shatters(kind), "shatters", &[x]);
         self.when(kinds::cooks_when_cut(kind), "cooks-when-cut", &[x]);
@@ -134,8 +135,8 @@ impl Facts {
         let running = thing.flag("isToggled");
         let closed_only = kind == "Microwave";
         self.when(thing.can("openable") && !(closed_only && running), "can-open", &[x]);
-        let may_run = !broken && !(closed_only && thing.flag("isOpen"));
-        self.when(thing.can("toggleable") && may_run, "can-switch-on", &[x]);
+        let ajar = closed_only && thing.flag("isOpen");
+        self.when(thing.can("toggleable") && !broken && !ajar, "can-switch-on", &[x]);
 
         let runs = |d: &str| things.iter().any(|t| t.flag("isToggled") && t.controls.iter().any(|c| c == d));
         let in_source = |affordance: &str| {
@@ -193,17 +194,14 @@ impl Facts {
     }
 }
 
-/// No closed door is between it and the room.
+/// Furniture is; a movable thing is where it stands on furniture or in open furniture.
 fn exposed(thing: &Thing, things: &[Thing]) -> bool {
-    let mut at = thing;
-    // A scene's nesting is a tree, so it is no deeper than there are things.
-    for _ in things {
-        let parent = at.parent.as_deref().filter(|_| at.can("pickupable"));
-        match parent.and_then(|p| things.iter().find(|t| t.name == p)) {
-            Some(parent) if kinds::encloses(&parent.kind) && !parent.flag("isOpen") => return false,
-            Some(parent) => at = parent,
-            None => return true,
+    let parent = thing.parent.as_deref().filter(|_| thing.can("pickupable"));
+    match parent.and_then(|p| things.iter().find(|t| t.name == p)) {
+        Some(parent) => {
+            let shut = kinds::encloses(&parent.kind) && !parent.flag("isOpen");
+            !parent.can("pickupable") && !shut
         }
+        None => true,
     }
-    true
 }

@@ -263,7 +263,7 @@ fn replace_movables(
         things.push(thing);
     }
     no_ring(things)?;
-    things.sort_by(|a, b| natural(&a.name).cmp(&natural(&b.name)));
+    things.sort_by_key(|t| natural(&t.name));
     chill(things);
     Ok(())
 }

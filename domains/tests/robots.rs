@@ -1,6 +1,7 @@
 //! Each robot's own domain file is the union domain without the actions it has no skill for.
 //!
 //! After a change to the domain or the catalogue: `UPDATE_ROBOTS=1 cargo test -p lamma-domains --test robots`.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::path::PathBuf;
 

@@ -1,4 +1,5 @@
 //! The rules of the household world, one test a rule, through the plain interpreter.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
 
@@ -65,11 +66,14 @@ fn what_is_held_is_nowhere_and_nobody_stands_at_it() {
     w.run("GoToObject r1 Plate_1\nGoToObject r2 Apple_1\nPickupObject r2 Apple_1 CounterTop_1");
     w.run("GoToObject r2 Plate_1\nPutObject r2 Apple_1 Plate_1\nGoToObject r2 Apple_1");
     w.run("PickupObject r1 Plate_1 CounterTop_1");
-    w.check(&["!(in Plate_1 CounterTop_1)", "!(at r1 Plate_1)", "!(at r2 Plate_1)", "!(at r2 Apple_1)"]);
+    w.check(&["!(in Plate_1 CounterTop_1)", "!(at r1 Plate_1)", "!(at r2 Plate_1)"]);
     w.check(&["(in Apple_1 Plate_1)", "(holding r1 Plate_1)"]);
     w.refuses("GoToObject r2 Plate_1", "placed plate_1");
-    w.refuses("GoToObject r2 Apple_1", "placed apple_1");
-    w.run("PutObject r1 Plate_1 CounterTop_1\nGoToObject r2 Apple_1");
+    w.run("GoToObject r2 Apple_1");
+    w.refuses("PickupObject r2 Apple_1 Plate_1", "at r2 plate_1");
+    w.run("PutObject r1 Plate_1 CounterTop_1");
+    w.refuses("PickupObject r2 Apple_1 Plate_1", "at r2 plate_1");
+    w.run("GoToObject r2 Apple_1\nPickupObject r2 Apple_1 Plate_1");
 }
 
 #[test]
@@ -77,7 +81,7 @@ fn a_closed_container_neither_gives_nor_takes() {
     let mut w = kitchen();
     w.run("GoToObject r1 Egg_1");
     w.check(&["(at r1 Egg_1)", "(at r1 Fridge_1)"]);
-    w.refuses("PickupObject r1 Egg_1 Fridge_1", "exposed egg_1");
+    w.refuses("PickupObject r1 Egg_1 Fridge_1", "accessible fridge_1");
     w.run("OpenObject r1 Fridge_1\nPickupObject r1 Egg_1 Fridge_1\nCloseObject r1 Fridge_1");
     w.refuses("PutObject r1 Egg_1 Fridge_1", "accessible fridge_1");
     w.run("OpenObject r1 Fridge_1\nPutObject r1 Egg_1 Fridge_1");
@@ -88,13 +92,25 @@ fn a_closed_container_neither_gives_nor_takes() {
 fn what_lies_in_a_bowl_in_a_closed_cabinet_is_out_of_reach() {
     let mut w = kitchen();
     w.run("GoToObject r1 Spoon_1");
-    w.refuses("PickupObject r1 Spoon_1 Bowl_1", "exposed spoon_1");
+    w.refuses("PickupObject r1 Spoon_1 Bowl_1", "exposed bowl_1");
     w.run("GoToObject r1 Cabinet_1\nOpenObject r1 Cabinet_1\nGoToObject r1 Spoon_1");
     w.run("PickupObject r1 Spoon_1 Bowl_1\nPutObject r1 Spoon_1 Bowl_1");
     w.run("GoToObject r1 Cabinet_1\nCloseObject r1 Cabinet_1");
     w.check(&["!(exposed Spoon_1)", "!(exposed Bowl_1)"]);
     w.run("OpenObject r1 Cabinet_1");
-    w.check(&["(exposed Spoon_1)", "(exposed Bowl_1)"]);
+    w.check(&["!(exposed Spoon_1)", "(exposed Bowl_1)"]);
+}
+
+#[test]
+fn a_box_opens_and_closes_wherever_it_stands() {
+    let objects = r#"[{"type": "Box", "in": "CoffeeTable"}, {"type": "Watch", "in": "CoffeeTable"},
+                      {"type": "Book", "in": "Box_1"}]"#;
+    let mut w = World::new("FloorPlan209", &able(1), Some(objects));
+    w.run("GoToObject r1 Watch_1\nPickupObject r1 Watch_1 CoffeeTable_1\nGoToObject r1 Box_1");
+    w.refuses("PutObject r1 Watch_1 Box_1", "accessible box_1");
+    w.run("OpenObject r1 Box_1\nPutObject r1 Watch_1 Box_1\nPickupObject r1 Book_1 Box_1");
+    w.run("CloseObject r1 Box_1");
+    w.refuses("PutObject r1 Book_1 Box_1", "accessible box_1");
 }
 
 #[test]
@@ -171,9 +187,9 @@ fn what_lies_behind_a_door_cannot_be_sliced() {
     );
     w.run("GoToObject r1 Knife_1\nPickupObject r1 Knife_1 CounterTop_1\nGoToObject r1 Apple_1");
     w.refuses("SliceObject r1 Apple_1", "exposed apple_1");
-    w.run("GoToObject r1 Tomato_1");
+    w.run("GoToObject r1 Fridge_1\nOpenObject r1 Fridge_1\nSliceObject r1 Apple_1");
+    // Nor what lies in a vessel: it is taken out first.
     w.refuses("SliceObject r1 Tomato_1", "exposed tomato_1");
-    w.run("GoToObject r1 Fridge_1\nOpenObject r1 Fridge_1\nGoToObject r1 Tomato_1\nSliceObject r1 Tomato_1");
 }
 
 #[test]

@@ -1,4 +1,5 @@
 //! Every scene loads and its start is consistent; so is every state that actions lead to from there.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
 
@@ -104,23 +105,12 @@ fn consistent(world: &World, team: &[Robot], lost: &BTreeSet<String>) -> Result<
             places == wanted,
             format!("{x} is at {places} places: {:?} {:?}", inside.get(x), holders.get(x)),
         )?;
-        // Its chain of containers, the way up.
-        let mut chain = Vec::new();
-        let mut at = x.clone();
-        while let Some(up) = inside.get(&at).and_then(|p| p.first()) {
-            ensure(chain.len() < 10, format!("{x} lies in itself"))?;
-            chain.push(up.clone());
-            at = up.clone();
-        }
-        let carried = holders.contains_key(&at);
-        if chain.len() <= 3 {
-            let placed = !carried && thing.kind != "Floor";
-            ensure(has(format!("(placed {x})")) == placed, format!("placed {x} should be {placed}"))?;
-            let shut = chain.iter().any(|c| has(format!("(encloses {c})")) && !has(format!("(open {c})")));
-            if !carried {
-                ensure(has(format!("(exposed {x})")) != shut, format!("exposed {x} should be {}", !shut))?;
-            }
-        }
+        let held = holders.contains_key(x);
+        let placed = !held && thing.kind != "Floor";
+        ensure(has(format!("(placed {x})")) == placed, format!("placed {x} should be {placed}"))?;
+        let shut = |c: &String| has(format!("(encloses {c})")) && !has(format!("(open {c})"));
+        let open = inside.get(x).is_none_or(|c| has(format!("(fixed {})", c[0])) && !shut(&c[0]));
+        ensure(has(format!("(exposed {x})")) == (open && !held), format!("exposed {x} should be {open}"))?;
         let door = !has(format!("(encloses {x})")) || has(format!("(open {x})"));
         let takes = thing.can("receptacle") && door && !has(format!("(broken {x})"));
         ensure(has(format!("(accessible {x})")) == takes, format!("accessible {x} should be {takes}"))?;
@@ -132,7 +122,7 @@ fn consistent(world: &World, team: &[Robot], lost: &BTreeSet<String>) -> Result<
             ensure(has(format!("(toggled {device})")) == on, format!("{x} and {device} differ"))?;
             ensure(has(format!("(heating {device})")) == on, format!("heating {device} should be {on}"))?;
         }
-        for robot in team.iter().filter(|_| carried) {
+        for robot in team.iter().filter(|_| held) {
             ensure(
                 !has(format!("(at {} {x})", robot.name)),
                 format!("{} stands at {x}, which is held", robot.name),
@@ -162,8 +152,8 @@ fn random_acts_keep_the_world_consistent() {
         let mut lost = BTreeSet::new();
         let mut log = Vec::new();
         let mut done: BTreeMap<String, usize> = BTreeMap::new();
-        for step in 0..4000 {
-            let act = random_act(&world, &mut random, step > 3500);
+        for step in 0..1500 {
+            let act = random_act(&world, &mut random, step > 1300);
             if world.act(&act).is_ok() {
                 let name = act.split_whitespace().next().unwrap_or_default().to_string();
                 if name == "RobotLost" {

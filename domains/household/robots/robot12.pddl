@@ -55,6 +55,7 @@
     (helping ?h ?r - robot)
     (openable ?x - thing)
     (encloses ?c - thing)
+    (fixed ?c - thing)
     (toggleable ?x - thing)
     (sliceable ?x - thing)
     (breakable ?x - thing)
@@ -85,7 +86,7 @@
       (forall (?y - thing) (not (at ?r ?y)))
       (forall (?f - Floor) (at ?r ?f))
       (at ?r ?x)
-      (forall (?c - thing) (when (in ?x ?c) (at ?r ?c)))
+      (forall (?c - thing) (when (and (in ?x ?c) (placed ?c)) (at ?r ?c)))
       (forall (?y - item) (when (in ?y ?x) (at ?r ?y)))))
   (:action DropHandObject
     :parameters (?r - robot ?x - item)
@@ -94,9 +95,8 @@
       (not (holding ?r ?x))
       (forall (?f - Floor) (in ?x ?f))
       (placed ?x)
+      (exposed ?x)
       (at ?r ?x)
-      (forall (?y - item) (when (in ?y ?x) (and (placed ?y) (at ?r ?y))))
-      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
       (hand-free ?r)
       (forall
         (?n ?m - count)
@@ -116,8 +116,7 @@
       (not (holding ?r ?x))
       (forall (?f - Floor) (in ?x ?f))
       (placed ?x)
-      (forall (?y - item) (when (in ?y ?x) (placed ?y)))
-      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
+      (exposed ?x)
       (when
         (breakable ?x)
         (and

@@ -55,6 +55,7 @@
     (helping ?h ?r - robot)
     (openable ?x - thing)
     (encloses ?c - thing)
+    (fixed ?c - thing)
     (toggleable ?x - thing)
     (sliceable ?x - thing)
     (breakable ?x - thing)
@@ -85,7 +86,7 @@
       (forall (?y - thing) (not (at ?r ?y)))
       (forall (?f - Floor) (at ?r ?f))
       (at ?r ?x)
-      (forall (?c - thing) (when (in ?x ?c) (at ?r ?c)))
+      (forall (?c - thing) (when (and (in ?x ?c) (placed ?c)) (at ?r ?c)))
       (forall (?y - item) (when (in ?y ?x) (at ?r ?y)))))
   (:action DropHandObject
     :parameters (?r - robot ?x - item)
@@ -94,9 +95,8 @@
       (not (holding ?r ?x))
       (forall (?f - Floor) (in ?x ?f))
       (placed ?x)
+      (exposed ?x)
       (at ?r ?x)
-      (forall (?y - item) (when (in ?y ?x) (and (placed ?y) (at ?r ?y))))
-      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
       (hand-free ?r)
       (forall
         (?n ?m - count)
@@ -116,8 +116,7 @@
       (not (holding ?r ?x))
       (forall (?f - Floor) (in ?x ?f))
       (placed ?x)
-      (forall (?y - item) (when (in ?y ?x) (placed ?y)))
-      (forall (?y - vessel ?z - item) (when (and (in ?y ?x) (in ?z ?y)) (placed ?z)))
+      (exposed ?x)
       (when
         (breakable ?x)
         (and
@@ -157,15 +156,7 @@
       (open ?x)
       (when (runs-closed ?x) (not (can-switch-on ?x)))
       (when (encloses ?x) (accessible ?x))
-      (forall (?y - item) (when (and (encloses ?x) (in ?y ?x)) (exposed ?y)))
-      (forall
-        (?y - vessel ?z - item)
-        (when (and (encloses ?x) (in ?y ?x) (in ?z ?y) (accessible ?y)) (exposed ?z)))
-      (forall
-        (?y ?w - vessel ?z - item)
-        (when
-          (and (encloses ?x) (in ?y ?x) (in ?w ?y) (in ?z ?w) (accessible ?y) (accessible ?w))
-          (exposed ?z)))))
+      (forall (?y - item) (when (and (encloses ?x) (fixed ?x) (in ?y ?x)) (exposed ?y)))))
   (:action CloseObject
     :parameters (?r - robot ?x - thing)
     :precondition (and (openable ?x) (at ?r ?x) (exposed ?x) (open ?x))
@@ -173,13 +164,7 @@
       (not (open ?x))
       (when (runs-closed ?x) (can-switch-on ?x))
       (when (encloses ?x) (not (accessible ?x)))
-      (forall (?y - item) (when (and (encloses ?x) (in ?y ?x)) (not (exposed ?y))))
-      (forall
-        (?y - vessel ?z - item)
-        (when (and (encloses ?x) (in ?y ?x) (in ?z ?y)) (not (exposed ?z))))
-      (forall
-        (?y ?w - vessel ?z - item)
-        (when (and (encloses ?x) (in ?y ?x) (in ?w ?y) (in ?z ?w)) (not (exposed ?z))))))
+      (forall (?y - item) (when (and (encloses ?x) (fixed ?x) (in ?y ?x)) (not (exposed ?y))))))
   (:action SwitchOn
     :parameters (?r - robot ?x - thing)
     :precondition (and (toggleable ?x) (can-switch-on ?x) (at ?r ?x) (exposed ?x) (not (toggled ?x)))

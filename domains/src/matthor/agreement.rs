@@ -27,8 +27,11 @@ pub struct Agreement {
     pub reasons: Vec<String>,
 }
 
+/// Whether a type of that name is in a class.
+type Member = fn(&str, &Kind) -> bool;
+
 /// Words for a class of things, and what its members are.
-const CLASSES: [(&[&str], fn(&str, &Kind) -> bool); 9] = [
+const CLASSES: [(&[&str], Member); 9] = [
     (&["vegetable", "veggie", "veges", "food", "ingredient", "grocery", "groceries"], |_, k| {
         made_of(k, "Food")
     }),

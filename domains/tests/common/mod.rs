@@ -1,4 +1,5 @@
 //! A world under the plain interpreter, in few words.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(dead_code, reason = "each test file uses its part")]
 
 use lamma_domains::robots::{Robot, SKILLS};
