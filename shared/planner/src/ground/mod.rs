@@ -64,6 +64,7 @@ pub fn ground(domain: &Domain, problem: &Problem, limits: &GroundLimits) -> Resu
     let reached = reach::reach(&lifted, limits)?;
     let mut ground = instantiate::instantiate(&lifted, &reached, limits)?;
     simplify::simplify(&mut ground);
-    let groups = invariant::mutex_groups(&ground, &reached.relations);
+    let possible = ground.impossible.is_empty();
+    let groups = if possible { invariant::mutex_groups(&ground, &reached.relations) } else { Vec::new() };
     encode::encode(lifted, &reached.relations, ground, &groups)
 }

@@ -1,7 +1,11 @@
 //! Heuristics and what they promise.
 
+mod graph;
+mod landmark;
 mod relaxation;
 
+pub(crate) use graph::Graph;
+pub(crate) use landmark::{LandmarkGraph, Status};
 pub use relaxation::{Costs, Relaxation};
 
 use crate::task::OperatorId;

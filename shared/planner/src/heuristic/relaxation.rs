@@ -2,12 +2,13 @@
 //! search"), and h_FF, the size of a relaxed plan read off h_add's best supporters (Hoffmann & Nebel 2001,
 //! "The FF planning system"; Keyder & Geffner 2008, "Heuristics for planning with action costs revisited").
 
+use std::rc::Rc;
+
+use super::graph::{Graph, NO_NODE};
 use super::{Estimate, Heuristic, Properties};
-use crate::csr::Csr;
 use crate::task::{FactId, OperatorId, Task};
 
 const UNREACHED: u32 = u32::MAX;
-const NO_NODE: u32 = u32::MAX;
 
 /// What an operator costs to a heuristic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,23 +33,12 @@ impl Costs {
     }
 }
 
-/// The delete relaxation of a task as an and/or graph. A node is an operator, a conditional effect of one, or
-/// an axiom: when all its conditions are reached, so are its effects.
+/// The delete relaxation of a task, with the work space to evaluate states on it.
 #[derive(Debug)]
 pub struct Relaxation<'a> {
     task: &'a Task,
-    /// The nodes that wait for each fact.
-    waiting: Csr<u32>,
-    /// The conditions and the effects of each node.
-    conditions: Csr<FactId>,
-    effects: Csr<FactId>,
-    operator_of: Vec<u32>,
+    graph: Rc<Graph>,
     base_cost: Vec<u32>,
-    condition_count: Vec<u32>,
-    /// Nodes without conditions.
-    free_nodes: Vec<u32>,
-    /// Facts that are taken to hold always: that a derived atom does not hold.
-    free_facts: Vec<FactId>,
     is_goal: Vec<bool>,
     // The rest is work space, valid for the state evaluated last.
     fact_cost: Vec<u32>,
@@ -65,40 +55,21 @@ pub struct Relaxation<'a> {
 }
 
 impl<'a> Relaxation<'a> {
-    /// Builds the graph.
+    /// Builds the relaxation.
     pub fn new(task: &'a Task, costs: Costs) -> Self {
-        let mut wanted = vec![false; task.facts.len()];
-        let asked = task.preconditions.items().iter().chain(task.effect_conditions.items());
-        for fact in asked.chain(task.axiom_bodies.items()).chain(&task.goal) {
-            wanted[fact.index()] = true;
-        }
-        let mut graph = Nodes { wanted: &wanted, ..Nodes::default() };
-        for index in 0..task.operators.len() {
-            let operator = OperatorId(index as u32);
-            let cost = costs.of(task, operator);
-            let precondition = task.preconditions(operator);
-            graph.add(precondition, &[], task.effects(operator), index as u32, cost);
-            for (condition, fact) in task.conditional_effects(operator) {
-                graph.add(precondition, condition, &[fact], index as u32, cost);
-            }
-        }
-        for axiom in &task.axioms {
-            graph.add(task.axiom_bodies.row(axiom.body as usize), &[], &[axiom.head], NO_NODE, 0);
-        }
-        let Nodes { conditions, effects, operator_of, base_cost, .. } = graph;
-        let count = operator_of.len();
-        let pairs =
-            (0..count).flat_map(|node| conditions.row(node).iter().map(move |fact| (fact.0, node as u32)));
-        let waiting = Csr::from_pairs(task.facts.len(), pairs);
-        let condition_count: Vec<u32> = conditions.rows().map(|row| row.len() as u32).collect();
-        let derived = &task.variables[task.primary_variables..];
+        Self::on(task, Rc::new(Graph::new(task)), costs)
+    }
+
+    /// The same on a graph that is there already.
+    pub(crate) fn on(task: &'a Task, graph: Rc<Graph>, costs: Costs) -> Self {
+        let cost =
+            |&operator: &u32| if operator == NO_NODE { 0 } else { costs.of(task, OperatorId(operator)) };
+        let count = graph.operator_of.len();
         let mut is_goal = vec![false; task.facts.len()];
         task.goal.iter().for_each(|fact| is_goal[fact.index()] = true);
         Relaxation {
             task,
-            waiting,
-            free_nodes: (0..count as u32).filter(|&node| condition_count[node as usize] == 0).collect(),
-            free_facts: derived.iter().map(|v| v.first).filter(|fact| wanted[fact.index()]).collect(),
+            base_cost: graph.operator_of.iter().map(cost).collect(),
             fact_cost: vec![UNREACHED; task.facts.len()],
             supporter: vec![NO_NODE; task.facts.len()],
             node_cost: vec![0; count],
@@ -109,11 +80,7 @@ impl<'a> Relaxation<'a> {
             marked_operators: Stamps::new(task.operators.len()),
             agenda: Vec::new(),
             relaxed_plan: Vec::new(),
-            conditions,
-            effects,
-            operator_of,
-            base_cost,
-            condition_count,
+            graph,
             is_goal,
         }
     }
@@ -123,17 +90,17 @@ impl<'a> Relaxation<'a> {
     fn propagate<const MAX: bool>(&mut self, state: &[u64], exhaustive: bool) {
         self.fact_cost.fill(UNREACHED);
         self.node_cost.copy_from_slice(&self.base_cost);
-        self.missing.copy_from_slice(&self.condition_count);
+        self.missing.copy_from_slice(&self.graph.condition_count);
         self.queue.clear();
         let task = self.task;
         for fact in task.facts_of(state) {
             self.reach(fact, 0, NO_NODE);
         }
-        for at in 0..self.free_facts.len() {
-            self.reach(self.free_facts[at], 0, NO_NODE);
+        for at in 0..self.graph.free_facts.len() {
+            self.reach(self.graph.free_facts[at], 0, NO_NODE);
         }
-        for at in 0..self.free_nodes.len() {
-            self.fire(self.free_nodes[at]);
+        for at in 0..self.graph.free_nodes.len() {
+            self.fire(self.graph.free_nodes[at]);
         }
         let mut goals = task.goal.len();
         while let Some((cost, fact)) = self.queue.pop() {
@@ -146,8 +113,8 @@ impl<'a> Relaxation<'a> {
                     return;
                 }
             }
-            for at in self.waiting.range(fact.index()) {
-                let node = self.waiting.items()[at] as usize;
+            for at in self.graph.waiting.range(fact.index()) {
+                let node = self.graph.waiting.items()[at] as usize;
                 self.missing[node] -= 1;
                 let total = &mut self.node_cost[node];
                 if MAX {
@@ -165,8 +132,8 @@ impl<'a> Relaxation<'a> {
     #[inline]
     fn fire(&mut self, node: u32) {
         let cost = self.node_cost[node as usize];
-        for at in self.effects.range(node as usize) {
-            self.reach(self.effects.items()[at], cost, node);
+        for at in self.graph.effects.range(node as usize) {
+            self.reach(self.graph.effects.items()[at], cost, node);
         }
     }
 
@@ -182,7 +149,7 @@ impl<'a> Relaxation<'a> {
 
     /// How much there is to look at in one evaluation, at most.
     pub(crate) fn size(&self) -> usize {
-        self.task.facts.len() + self.conditions.items().len() + self.effects.items().len()
+        self.graph.size()
     }
 
     /// h_max of a state with this graph's costs; `None` if the goal is out of reach.
@@ -225,8 +192,8 @@ impl<'a> Relaxation<'a> {
             {
                 continue;
             }
-            self.agenda.extend_from_slice(self.conditions.row(node as usize));
-            let operator = self.operator_of[node as usize];
+            self.agenda.extend_from_slice(self.graph.conditions.row(node as usize));
+            let operator = self.graph.operator_of[node as usize];
             if operator == NO_NODE || !self.marked_operators.mark(operator as usize) {
                 continue;
             }
@@ -248,37 +215,6 @@ impl Heuristic for Relaxation<'_> {
 
     fn estimate(&mut self, state: &[u64], preferred: &mut Vec<OperatorId>) -> Estimate {
         self.hff(state, preferred).map_or(Estimate::DeadEnd, Estimate::Cost)
-    }
-}
-
-/// The nodes while they are collected.
-#[derive(Default)]
-struct Nodes<'a> {
-    wanted: &'a [bool],
-    conditions: Csr<FactId>,
-    effects: Csr<FactId>,
-    operator_of: Vec<u32>,
-    base_cost: Vec<u32>,
-    buffer: Vec<FactId>,
-}
-
-impl Nodes<'_> {
-    fn add(&mut self, conditions: &[FactId], more: &[FactId], effects: &[FactId], operator: u32, cost: u32) {
-        // Effects that no condition and no goal asks for are not followed.
-        if !effects.iter().any(|fact| self.wanted[fact.index()]) {
-            return;
-        }
-        let wanted = self.wanted;
-        self.effects.push_row(effects.iter().copied().filter(|fact| wanted[fact.index()]));
-        self.buffer.clear();
-        self.buffer.extend(conditions.iter().chain(more));
-        if !more.is_empty() {
-            self.buffer.sort_unstable();
-            self.buffer.dedup();
-        }
-        self.conditions.push_row(self.buffer.iter().copied());
-        self.operator_of.push(operator);
-        self.base_cost.push(cost);
     }
 }
 

@@ -6,6 +6,7 @@ mod limits;
 mod open_list;
 mod registry;
 
+use std::rc::Rc;
 use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::{Domain, Problem};
@@ -13,7 +14,7 @@ use lamma_pddl::ast::{Domain, Problem};
 pub use limits::{GaveUp, Limits, Outcome, Unsolvable};
 
 use crate::ground::{GroundError, GroundLimits, ground};
-use crate::heuristic::{Costs, Relaxation};
+use crate::heuristic::{Costs, Graph, LandmarkGraph, Relaxation};
 use crate::successor::Successors;
 use crate::task::Task;
 use limits::Meter;
@@ -34,6 +35,8 @@ pub struct SearchOptions {
 pub struct Statistics {
     /// Expanded states until the first plan.
     pub expanded: u64,
+    /// Landmarks found.
+    pub landmarks: usize,
     /// The cost of the first plan.
     pub first_cost: f64,
 }
@@ -54,15 +57,18 @@ pub fn solve_with_statistics(
     if !task.impossible.is_empty() {
         return Outcome::Unsolvable(Unsolvable::Unreachable(task.impossible.clone()));
     }
-    let mut relaxation = Relaxation::new(task, Costs::PlusOne);
+    let graph = Rc::new(Graph::new(task));
+    let mut relaxation = Relaxation::on(task, Rc::clone(&graph), Costs::Unit);
     let unreachable = relaxation.unreachable_goals(&task.init);
     if !unreachable.is_empty() {
         let facts = unreachable.into_iter().map(|fact| task.fact_text(fact)).collect();
         return Outcome::Unsolvable(Unsolvable::Unreachable(facts));
     }
     let successors = Successors::new(task);
+    let landmarks = LandmarkGraph::new(task, &graph);
+    statistics.landmarks = landmarks.len();
     let mut meter = Meter::new(limits, cancel);
-    let found = greedy::lazy_greedy(task, &successors, &mut relaxation, &mut meter);
+    let found = greedy::lazy_greedy(task, &successors, &mut relaxation, Some(&landmarks), &mut meter);
     statistics.expanded = meter.expanded;
     match found {
         Err(reason) => Outcome::GaveUp(reason),
@@ -71,6 +77,7 @@ pub fn solve_with_statistics(
             statistics.first_cost = path.iter().map(|&o| task.operators[o.index()].cost).sum();
             let affordable = IMPROVEMENT_WORK / relaxation.size().max(1) as u64;
             let effort = options.improvement.unwrap_or(affordable);
+            let mut relaxation = Relaxation::on(task, graph, Costs::PlusOne);
             let path = improve::improve(task, &successors, &mut relaxation, path, effort, &mut meter);
             Outcome::Found(task.plan(&path))
         }
