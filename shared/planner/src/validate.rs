@@ -138,4 +138,6 @@ impl Interpreter {
 }
 
 #[cfg(test)]
+mod properties;
+#[cfg(test)]
 mod tests;
