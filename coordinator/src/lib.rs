@@ -1,1 +1,34 @@
-//! stub
+//! The coordinator: understands, allocates, combines and follows through.
+//!
+//! The paper's modules (LaMMA-P, section III) map to rooms: Precondition Identifier to [`understand`], Task
+//! Allocator to [`allocate`] and [`split`], Problem Generator to [`problem`], Sub-Plan Combiner to
+//! [`combine`]. The state machine that calls on them is [`machine`].
+
+pub mod allocate;
+pub mod assign;
+pub mod bound;
+pub mod combine;
+mod deadline;
+mod follow;
+pub mod decompose;
+pub mod job;
+pub mod machine;
+pub mod merge;
+mod phase;
+pub mod problem;
+mod reason;
+mod report;
+pub mod result;
+mod roster;
+mod say;
+mod stopwatch;
+pub mod split;
+pub mod team;
+pub mod understand;
+mod transition;
+mod world_view;
+
+pub use job::{CoordinatorDone, CoordinatorJob};
+pub use machine::{Coordinator, CoordinatorConfig};
+pub use team::{Member, Relaxation, Team};
+pub use understand::{GoalGroup, GoalItem, ScoreGoal, Subgoal, Understanding, Understood};

@@ -1,1 +1,7 @@
-//! stub
+//! The deterministic testbed, and the tests that need the whole workspace.
+
+pub mod checker;
+pub mod faults;
+pub mod rng;
+pub mod scenario;
+pub mod testbed;

@@ -1,10 +1,22 @@
 //! Language models behind one trait: the embedded default and a chat-completions client.
 
 pub mod answer;
+pub mod cassette;
+pub mod chat;
+pub mod decode;
+pub mod fallback;
+pub mod http;
+pub mod offline;
+pub mod prompt;
 pub mod request;
+pub mod spec;
 
 pub use answer::{Answer, Clarification, Decomposition, LmError, Subtask};
+pub use chat::{ChatModel, Usage};
+pub use fallback::Fallback;
+pub use offline::Offline;
 pub use request::{ObjectView, Request, RobotView};
+pub use spec::{Options, from_spec};
 
 use std::sync::atomic::AtomicBool;
 
@@ -15,4 +27,9 @@ pub trait LanguageModel: Send {
 
     /// Decomposes the instruction. Returns within the request's deadline, or soon after `cancel` is set.
     fn decompose(&mut self, request: &Request, cancel: &AtomicBool) -> Result<Answer, LmError>;
+
+    /// Tokens used so far; none for what is no model.
+    fn usage(&self) -> Usage {
+        Usage::default()
+    }
 }

@@ -145,10 +145,15 @@ fn private_head(private: &Private) -> String {
 fn objects(names: &[TypedName]) -> Vec<Doc> {
     let mut docs = Vec::new();
     for run in names.chunk_by(|a, b| a.private_to == b.private_to) {
-        let groups = typed_groups(run, "");
         match &run[0].private_to {
-            None => docs.extend(groups),
-            Some(private) => docs.push(Doc::list(private_head(private), groups)),
+            None => docs.extend(typed_groups(run, "")),
+            Some(private) => {
+                // An owner's first object has its type at once, or it could be taken for the agent's name.
+                let alone = usize::from(*private == Private::Owner && !run[0].types.is_empty());
+                let (first, others) = run.split_at(alone);
+                let groups = [first, others].into_iter().flat_map(|part| typed_groups(part, ""));
+                docs.push(Doc::list(private_head(private), groups.collect()));
+            }
         }
     }
     docs

@@ -7,7 +7,7 @@ use crate::source::{MAX_SOURCE_BYTES, Source};
 
 const MAX_NESTING: usize = 256;
 const MAX_WORD_BYTES: usize = 1024;
-const MAX_TOKENS: usize = 8 << 20;
+pub(crate) const MAX_TOKENS: usize = 8 << 20;
 
 /// A word or a list.
 #[derive(Debug)]
@@ -199,12 +199,14 @@ impl<'s> Reader<'s, '_> {
         // A section inside a section means that the one before was not closed: mend it there, so that the rest
         // of the text is still understood.
         let begins_list = self.open.last().is_some_and(|list| list.items.is_empty());
-        if begins_list && self.open.len() > 2 && SECTIONS.iter().any(|section| word.is(section)) {
-            if let Some(list) = self.open.pop() {
-                self.report_unclosed(list.span.to(word.span), "this section begins inside another one", 1);
-                self.close_down_to(1, list.span.start as usize);
-                self.open.push(list);
-            }
+        let is_section = begins_list && SECTIONS.iter().any(|section| word.is(section));
+        if is_section
+            && self.open.len() > 2
+            && let Some(list) = self.open.pop()
+        {
+            self.report_unclosed(list.span.to(word.span), "this section begins inside another one", 1);
+            self.close_down_to(1, list.span.start as usize);
+            self.open.push(list);
         }
         self.put(Sexpr::Word(word));
         Some(())
@@ -288,7 +290,7 @@ mod tests {
 
     #[test]
     fn blanks_and_comments_separate_words() {
-        let (shown, codes) = read_all("; x (\n(a\tb?c;y)\x0c\n\r(-1.5e3) ; end");
+        let (shown, codes) = read_all("; x (\n(a\tb?c;y)\n)\x0c\r(-1.5e3) ; end");
         assert_eq!((shown.as_str(), codes.len()), ("(a b ?c) (-1.5e3)", 0));
     }
 

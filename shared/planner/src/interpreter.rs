@@ -17,8 +17,9 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use lamma_pddl::Name;
-use lamma_pddl::ast::{Action, Condition, Domain, Init, TypedName};
+use lamma_pddl::ast::{Action, Condition, Domain, Init, NumericExpr, TypedName};
 
+pub(crate) use condition::operate;
 pub use condition::{GroundCondition, GroundExpr};
 pub use error::{ActError, InterpretError, Unmet, Violation};
 pub use ground::{GroundAction, GroundEffect, Outcome};
@@ -28,6 +29,9 @@ use crate::plan::GroundAct;
 use axioms::Axioms;
 use ground::Grounder;
 use state::View;
+
+/// Pairs of an object and a type it is of.
+const MAX_MEMBERS: usize = 16 << 20;
 
 /// A domain and typed objects, with every name resolved once.
 #[derive(Clone, Debug)]
@@ -121,7 +125,8 @@ impl Interpreter {
             return Err(ActError::UnknownObject { act: act.clone(), object: arg.clone(), nearest });
         }
         if !self.of_types(&param.types).contains(arg) {
-            return Err(ActError::WrongType { act: act.clone(), object: arg.clone(), param: param.clone() });
+            let param = Box::new(param.clone());
+            return Err(ActError::WrongType { act: act.clone(), object: arg.clone(), param });
         }
         Ok(())
     }
@@ -130,6 +135,12 @@ impl Interpreter {
     pub fn ground_condition(&self, condition: &Condition) -> Result<GroundCondition, InterpretError> {
         self.check_condition(condition, &mut Vec::new())?;
         Grounder::new(self, Vec::new()).condition(condition, true).ok_or(InterpretError::TooLarge)
+    }
+
+    /// A number without variables.
+    pub fn ground_expression(&self, expression: &NumericExpr) -> Result<GroundExpr, InterpretError> {
+        self.check_expression(expression, &Vec::new())?;
+        Ok(Grounder::new(self, Vec::new()).expression(expression))
     }
 
     /// Whether the condition holds, with what follows from the state by the axioms.
@@ -166,6 +177,11 @@ impl Interpreter {
     /// The parts of a condition that do not hold; none if it holds.
     pub fn missing(&self, state: &WorldState, goal: &GroundCondition) -> Vec<Unmet> {
         goal.unmet(&self.view(state))
+    }
+
+    /// Whether the domain has derived predicates.
+    pub fn has_axioms(&self) -> bool {
+        !self.axioms.is_empty()
     }
 
     fn view<'a>(&self, state: &'a WorldState) -> View<'a> {
@@ -213,6 +229,9 @@ fn objects_by_type(
             };
             // Also what ends the walk in a circle of types.
             if members.insert((name, &object.name)) {
+                if members.len() > MAX_MEMBERS {
+                    return Err(InterpretError::TooLarge);
+                }
                 by_type.entry(name.clone()).or_default().push(object.name.clone());
                 open.extend(above);
             }
@@ -220,3 +239,6 @@ fn objects_by_type(
     }
     Ok(by_type)
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,7 +1,23 @@
 //! Grounding, heuristics, search, validation and partial-order plans for PDDL tasks.
 
+mod csr;
+pub mod ground;
+pub mod heuristic;
+mod id_table;
 pub mod interpreter;
+mod lifted;
+pub mod partial_order;
 pub mod plan;
+pub mod search;
+mod successor;
+pub mod task;
+pub mod validate;
 
+pub use ground::{GroundError, GroundLimits, ground};
 pub use interpreter::{GroundAction, GroundCondition, GroundEffect, Interpreter, WorldState};
 pub use plan::{GroundAct, Literal, Plan};
+pub use search::{
+    GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, plan, relaxed_plan_cost, solve,
+};
+pub use task::{FactId, OperatorId, State, Task};
+pub use validate::{Verdict, read_plan, validate, write_plan};

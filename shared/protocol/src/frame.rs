@@ -11,7 +11,8 @@
 //! | 4 | applied: steps applied so far, whole run |
 //! | 5 | number of agents (low half), number of facts (high half) |
 //! | 6 | logical time: the makespan, in steps, of what was applied so far |
-//! | 7 .. 7+agents | progress: steps applied in this epoch, per agent |
+//! | 7 .. | progress: steps applied in this epoch, one word per agent |
+//! | then | closed: steps applied in the epoch before this one, one word per agent |
 //! | rest | one bit per fact of the vocabulary, lowest bit first |
 
 use thiserror::Error;
@@ -57,6 +58,8 @@ pub struct FrameHeader {
     pub makespan: u64,
     /// Steps applied in this epoch, per agent.
     pub progress: Vec<StepIndex>,
+    /// Steps applied in the last epoch that had any before this one, per agent: what a new plan follows.
+    pub closed: Vec<StepIndex>,
     /// Facts in the vocabulary that this frame needs.
     pub facts: u32,
 }
@@ -64,7 +67,7 @@ pub struct FrameHeader {
 /// Writes a frame: the header and `bits`, where bit `i` of the slice's words is fact `i`.
 pub fn write_frame(header: &FrameHeader, bits: &[u64]) -> Vec<u64> {
     let words = bit_words(header.facts);
-    let mut out = Vec::with_capacity(FIXED + header.progress.len() + words);
+    let mut out = Vec::with_capacity(FIXED + 2 * header.progress.len() + words);
     let agents = header.progress.len() as u64;
     out.extend([
         MAGIC,
@@ -76,6 +79,7 @@ pub fn write_frame(header: &FrameHeader, bits: &[u64]) -> Vec<u64> {
         header.makespan,
     ]);
     out.extend(header.progress.iter().map(|p| u64::from(p.0)));
+    out.extend((0..header.progress.len()).map(|a| header.closed.get(a).map_or(0, |p| u64::from(p.0))));
     out.extend((0..words).map(|i| bits.get(i).copied().unwrap_or(0)));
     out
 }
@@ -101,7 +105,7 @@ impl<'a> Frame<'a> {
         }
         let counts = *words.get(5).ok_or(FrameError::Truncated { have: words.len(), need: FIXED })?;
         let (agents, facts) = ((counts & 0xffff_ffff) as usize, (counts >> 32) as u32);
-        let need = FIXED + agents + bit_words(facts);
+        let need = FIXED + 2 * agents + bit_words(facts);
         if words.len() < need {
             return Err(FrameError::Truncated { have: words.len(), need });
         }
@@ -145,10 +149,19 @@ impl<'a> Frame<'a> {
 
     /// Steps of this epoch that `agent` has done.
     pub fn progress(&self, agent: AgentId) -> StepIndex {
+        self.count(FIXED, agent)
+    }
+
+    /// Steps that `agent` had done when the epoch before this one closed.
+    pub fn closed(&self, agent: AgentId) -> StepIndex {
+        self.count(FIXED + self.agents, agent)
+    }
+
+    fn count(&self, start: usize, agent: AgentId) -> StepIndex {
         if agent.index() >= self.agents {
             return StepIndex(0);
         }
-        StepIndex(u32::try_from(self.words[FIXED + agent.index()]).unwrap_or(u32::MAX))
+        StepIndex(u32::try_from(self.words[start + agent.index()]).unwrap_or(u32::MAX))
     }
 
     /// Whether fact `i` of the vocabulary holds.
@@ -179,7 +192,7 @@ impl<'a> Frame<'a> {
     }
 
     fn bits(&self) -> &'a [u64] {
-        let start = FIXED + self.agents;
+        let start = FIXED + 2 * self.agents;
         &self.words[start..start + bit_words(self.facts)]
     }
 }
@@ -196,6 +209,7 @@ mod tests {
             applied: 4,
             makespan: 2,
             progress: vec![StepIndex(2), StepIndex(0)],
+            closed: vec![StepIndex(1), StepIndex(9)],
             facts: 70,
         };
         write_frame(&header, &[0b101, 0b10_0000])
@@ -208,6 +222,7 @@ mod tests {
         assert_eq!((frame.epoch(), frame.version(), frame.agents()), (Epoch(3), 17, 2));
         assert_eq!((frame.requested(), frame.applied(), frame.makespan()), (5, 4, 2));
         assert_eq!(frame.true_facts().collect::<Vec<_>>(), [0, 2, 69]);
+        assert_eq!(frame.closed(AgentId(1)), StepIndex(9));
         assert!(frame.holds(69) && !frame.holds(1) && !frame.holds(70));
         assert!(frame.open(Gate { agent: AgentId(0), done: StepIndex(2) }));
         assert!(!frame.open(Gate { agent: AgentId(1), done: StepIndex(1) }));

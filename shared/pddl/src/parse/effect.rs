@@ -16,7 +16,7 @@ impl Parser {
         }
         let Some(head) = list.head() else {
             let help = "`(and (a) (b))` joins effects; `((a) (b))` means nothing";
-            self.expected(list.place(), "`and`, `not`, `when`, … or a predicate", help);
+            self.expected(list.place(), "`and`, `not`, `when`, ... or a predicate", help);
             return None;
         };
         match head.text.to_ascii_lowercase().as_str() {

@@ -61,7 +61,7 @@ impl Parser {
     fn missing_sections(&mut self, problem: &Problem, seen: &HashMap<&'static str, Span>) {
         let place = problem.name.span();
         if !seen.contains_key(":goal") {
-            let found = Diagnostic::error(codes::MISSING_SECTION, place, "the problem has no `(:goal …)`");
+            let found = Diagnostic::error(codes::MISSING_SECTION, place, "the problem has no `(:goal ...)`");
             self.report.push(found.help("say what shall hold at the end: `(:goal (and (open Fridge_1)))`"));
         }
         if !seen.contains_key(":domain") {
@@ -70,7 +70,8 @@ impl Parser {
             self.report.push(found.help("name the domain directly behind `(problem NAME)`"));
         }
         if !seen.contains_key(":init") {
-            let found = Diagnostic::warning(codes::MISSING_SECTION, place, "the problem has no `(:init …)`");
+            let found =
+                Diagnostic::warning(codes::MISSING_SECTION, place, "the problem has no `(:init ...)`");
             self.report.push(found.label("everything is false at the start"));
         }
     }

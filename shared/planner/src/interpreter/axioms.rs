@@ -51,6 +51,10 @@ impl Axioms {
         Ok(Axioms { strata, derived })
     }
 
+    pub fn is_empty(&self) -> bool {
+        self.derived.is_empty()
+    }
+
     pub fn derives(&self, predicate: &Name) -> bool {
         self.derived.contains(predicate)
     }

@@ -133,7 +133,8 @@ impl GroundExpr {
     }
 }
 
-fn operate(op: ArithmeticOp, operands: &[f64]) -> f64 {
+/// The value of an operation; not finite where it has none.
+pub(crate) fn operate(op: ArithmeticOp, operands: &[f64]) -> f64 {
     match operands {
         [] => f64::NAN,
         [only] if op == ArithmeticOp::Subtract => -only,

@@ -63,7 +63,13 @@ pub enum InterpretError {
         /// One predicate of the circle.
         predicate: Name,
     },
-    /// Too many ground conditions.
+    /// A metric without a value.
+    #[error("the metric has no value: {reason}")]
+    Metric {
+        /// Why.
+        reason: String,
+    },
+    /// Too many ground conditions, or too many objects with too many types.
     #[error("the condition has too many ground instances; use fewer nested quantifiers")]
     TooLarge,
 }
@@ -104,7 +110,7 @@ pub enum ActError {
         /// The argument.
         object: Name,
         /// The parameter with its types.
-        param: TypedName,
+        param: Box<TypedName>,
     },
     /// The action has too many ground conditions and effects.
     TooLarge {

@@ -13,7 +13,7 @@ use super::state::{Effects, View};
 use crate::plan::{GroundAct, Literal};
 
 /// Ground parts one action or condition may have: nested quantifiers grow as a power.
-const MAX_PARTS: usize = 4 << 20;
+const MAX_PARTS: usize = 2 << 20;
 
 /// An action without variables.
 #[derive(Clone, Debug, PartialEq)]
@@ -245,7 +245,7 @@ impl<'i> Grounder<'i> {
         Some(())
     }
 
-    fn expression(&self, expression: &NumericExpr) -> GroundExpr {
+    pub fn expression(&self, expression: &NumericExpr) -> GroundExpr {
         match expression {
             NumericExpr::Number(number) => GroundExpr::Number(number.value()),
             NumericExpr::Function(function) => GroundExpr::Value(self.function(function)),

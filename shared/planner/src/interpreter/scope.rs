@@ -100,7 +100,11 @@ impl Interpreter {
         }
     }
 
-    fn check_expression(&self, expression: &NumericExpr, scope: &Scope) -> Result<(), InterpretError> {
+    pub(super) fn check_expression(
+        &self,
+        expression: &NumericExpr,
+        scope: &Scope,
+    ) -> Result<(), InterpretError> {
         match expression {
             NumericExpr::Number(_) => Ok(()),
             NumericExpr::Function(function) => {

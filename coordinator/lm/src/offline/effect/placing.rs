@@ -1,0 +1,198 @@
+//! Verbs that put things somewhere: which of the places is the goal, and which only say where things were.
+
+use super::super::lexicon::{Act, Verb};
+use super::super::mention::Spoken;
+use super::super::syntax::{Clause, Head, Place, Relation};
+use super::{Change, Interpreter};
+
+impl<'a> Interpreter<'_, 'a> {
+    /// `put`, `store`, `throw away`.
+    pub(super) fn place(&mut self, clause: &Clause<'a>, verb: &Verb, next: Option<&Clause<'a>>) -> Spoken {
+        if clause.objects.is_empty()
+            && clause.places.is_empty()
+            && !clause.complement.is_empty()
+        {
+            return self.keep(clause);
+        }
+        if !clause.complement.is_empty() && clause.places.is_empty() {
+            return self.keep(clause);
+        }
+        let (goal, inner, at) = self.sort_places(clause);
+        if let Some(goal) = goal {
+            if let Some(inner) = inner {
+                return self.put_nested(clause, &at, &inner, &goal);
+            }
+            return self.put(clause, &at, &goal);
+        }
+        if let Some(near) = clause.places.iter().find(|place| place.relation == Relation::Near)
+            && verb.act == Act::Place
+        {
+            return self.put_beside(clause, &at, near);
+        }
+        let carried = clause.verbs.iter().any(|verb| verb.act == Act::Hold);
+        if carried && verb.act == Act::Place && !clause.back {
+            return self.hold(clause);
+        }
+        let objects = self.objects(clause, &at, Some("pickupable"));
+        let goes_on = next.is_some_and(|next| {
+            next.verbs.iter().any(|verb| matches!(verb.act, Act::Place | Act::Store | Act::Discard | Act::Set))
+        });
+        let homes: Vec<String> = match verb.act {
+            Act::Discard => vec!["GarbageCan".to_owned()],
+            _ => verb.default.clone(),
+        };
+        let mut places = Vec::new();
+        for &entity in &objects {
+            let kind = self.discourse.entities[entity].kind().to_owned();
+            let home = match (verb.act, clause.back) {
+                (_, true) => self.where_it_was(entity),
+                (Act::Store, _) => self.home_of(&kind),
+                _ => homes.iter().find(|home| self.discourse.scene.has(home)).cloned(),
+            };
+            match home {
+                Some(home) => {
+                    let place = self.discourse.place_of_kind(&home);
+                    if verb.act != Act::Discard {
+                        self.discourse.assume(format!("the place for the {kind} is the {home}"), 0.8);
+                    }
+                    self.put_in(entity, place);
+                    places.push(place);
+                }
+                None if goes_on || clause.back => {}
+                None => {
+                    let text = self.discourse.entities[entity].text.clone();
+                    self.discourse.problem(format!("it is not said where \"{text}\" goes"), 0.3);
+                }
+            }
+        }
+        Spoken { objects, placed: !places.is_empty(), places }
+    }
+
+    /// The goal, the movable receptacle it is reached in, and the places that say where things were.
+    fn sort_places(&self, clause: &Clause<'a>) -> (Option<Place>, Option<Place>, Vec<Place>) {
+        let scene = self.discourse.scene;
+        let is_there = |place: &Place| match &place.phrase.head {
+            Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")),
+            Head::Named(_) | Head::Pronoun { .. } => true,
+            Head::Unknown(_) => true,
+            _ => false,
+        };
+        let goals: Vec<usize> = (0..clause.places.len())
+            .filter(|&i| {
+                matches!(clause.places[i].relation, Relation::In | Relation::To) && is_there(&clause.places[i])
+            })
+            .collect();
+        let Some(&last) = goals.last() else {
+            let at = clause.places.iter().filter(|p| p.relation == Relation::From).cloned().collect();
+            return (None, None, at);
+        };
+        let to = goals.iter().rev().find(|&&i| clause.places[i].relation == Relation::To).copied();
+        let movable = |i: usize| {
+            matches!(&clause.places[i].phrase.head, Head::Noun(noun)
+                if noun.kinds.iter().any(|k| scene.affords(k, "pickupable") && scene.affords(k, "receptacle")))
+        };
+        let relation = |i: usize| clause.places[i].relation;
+        let compartment = |i: usize| {
+            matches!(&clause.places[i].phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|k| {
+                scene.has(k) && self.discourse.lexicon.is_small("compartments", &[&k.to_lowercase()])
+            }))
+        };
+        let (goal, inner) = match goals.as_slice() {
+            [.., a, b] if movable(*a) && !movable(*b) => (*b, Some(*a)),
+            [a, b] if compartment(*a) && !compartment(*b) && relation(*b) == Relation::In => (*a, None),
+            _ => (to.unwrap_or(last), None),
+        };
+        let at = (0..clause.places.len())
+            .filter(|&i| i != goal && Some(i) != inner)
+            .filter(|&i| matches!(clause.places[i].relation, Relation::In | Relation::From))
+            .filter(|&i| i < goal || clause.places[i].relation == Relation::From)
+            .map(|i| clause.places[i].clone())
+            .collect();
+        (Some(clause.places[goal].clone()), inner.map(|i| clause.places[i].clone()), at)
+    }
+
+    /// The objects end in the place.
+    pub(super) fn put(&mut self, clause: &Clause<'a>, at: &[Place], goal: &Place) -> Spoken {
+        let objects = self.objects(clause, at, Some("pickupable"));
+        let places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
+        self.add_asked(&places);
+        if let Some(&place) = places.first() {
+            for &entity in &objects {
+                if entity != place {
+                    self.put_in(entity, place);
+                }
+            }
+        }
+        Spoken { objects, placed: !places.is_empty(), places }
+    }
+
+    /// "a spoon in a cup on the table": the spoon in the cup, and the cup on the table.
+    fn put_nested(&mut self, clause: &Clause<'a>, at: &[Place], inner: &Place, goal: &Place) -> Spoken {
+        let spoken = self.put(clause, at, inner);
+        let places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
+        if let (Some(&carrier), Some(&place)) = (spoken.places.first(), places.first()) {
+            self.put_in(carrier, place);
+        }
+        Spoken { objects: spoken.objects, places: spoken.places, placed: true }
+    }
+
+    /// Places one thing, and lets what the receptacle takes decide what both are.
+    fn put_in(&mut self, entity: usize, place: usize) {
+        self.discourse.fit(entity, place);
+        self.add(entity, Change::Inside(place));
+    }
+
+    /// "next to the toaster": on what the toaster stands on, or the likeliest surface.
+    fn put_beside(&mut self, clause: &Clause<'a>, at: &[Place], near: &Place) -> Spoken {
+        let objects = self.objects(clause, at, Some("pickupable"));
+        let mentioned = self.discourse.mention(&near.phrase, &[], None);
+        let Some(&first) = objects.first() else { return Spoken::default() };
+        let thing = self.discourse.entities[first].kind().to_owned();
+        let scene = self.discourse.scene;
+        let reference = mentioned.first().map(|&e| self.discourse.entities[e].kind().to_owned());
+        if near.there
+            && let Some(&place) = mentioned.first()
+            && reference.as_deref().is_some_and(|kind| scene.accepts(kind, &thing))
+        {
+            for &entity in &objects {
+                self.put_in(entity, place);
+            }
+            return Spoken { objects, places: vec![place], placed: true };
+        }
+        let under = reference.as_deref().filter(|_| near.under).and_then(|kind| self.discourse.lexicon.under(kind));
+        let stands_on = reference.as_deref().and_then(|kind| {
+            let object = scene.of_kind(kind).first()?;
+            let parents = object.parents.iter().filter_map(|parent| scene.named(parent));
+            parents.map(|parent| parent.kind.as_str()).find(|kind| *kind != "Floor" && scene.accepts(kind, &thing))
+        });
+        let likely = self.discourse.lexicon.beside().find(|kind| scene.surely_accepts(kind, &thing));
+        let kinds = self.discourse.entities[first].kinds.clone();
+        let chosen = under.filter(|place| kinds.iter().any(|kind| scene.accepts(place, kind))).or(stands_on).or(likely).map(str::to_owned);
+        let Some(chosen) = chosen else {
+            self.discourse.problem(format!("there is no surface for \"{}\"", clause.text), 0.3);
+            return Spoken { objects, ..Spoken::default() };
+        };
+        self.discourse.assume(format!("the place by \"{}\" is taken to be the {chosen}", near.phrase.text), 0.8);
+        let place = self.discourse.place_of_kind(&chosen);
+        for &entity in &objects {
+            self.put_in(entity, place);
+        }
+        Spoken { objects, places: vec![place], placed: true }
+    }
+
+    fn home_of(&self, kind: &str) -> Option<String> {
+        let scene = self.discourse.scene;
+        self.discourse.lexicon.homes(kind).find(|home| scene.accepts(home, kind)).map(str::to_owned)
+    }
+
+    /// The type of what a thing was said to be in, or lies in now.
+    fn where_it_was(&self, entity: usize) -> Option<String> {
+        let scene = self.discourse.scene;
+        let said = self.discourse.spoken.iter().find(|s| !s.placed && s.objects.contains(&entity));
+        if let Some(&place) = said.and_then(|spoken| spoken.places.first()) {
+            return Some(self.discourse.entities[place].kind().to_owned());
+        }
+        let object = scene.of_kind(self.discourse.entities[entity].kind()).first()?;
+        object.parents.iter().filter_map(|parent| scene.named(parent)).map(|parent| parent.kind.clone()).next()
+    }
+}

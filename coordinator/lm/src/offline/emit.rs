@@ -1,0 +1,286 @@
+//! From facts to sub-tasks: what lasts, what must come first, and which entries speak of one object.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use lamma_domains::goal::{Content, GoalEntry, PropertyValue};
+
+use super::effect::{Change, Fact};
+use super::lexicon::Settings;
+use super::mention::{Discourse, Which};
+use super::syntax::{Clause, Link};
+use crate::Subtask;
+
+/// Contents within contents go no deeper than this.
+const DEEPEST: usize = 4;
+
+/// Turns the facts of clauses into sub-tasks.
+pub struct Emitter<'e, 'a> {
+    discourse: &'e Discourse<'a>,
+    facts: Vec<Fact>,
+    /// The facts that still hold at the end.
+    lasting: Vec<bool>,
+}
+
+impl<'e, 'a> Emitter<'e, 'a> {
+    /// Completes the facts (what is chilled stays in the fridge, what is put down is not held) and finds
+    /// out which of them last.
+    pub fn new(discourse: &'e mut Discourse<'a>, mut facts: Vec<Fact>, chilled: &[(usize, usize)]) -> Self {
+        for &(clause, entity) in chilled {
+            let placed = facts.iter().any(|fact| {
+                fact.entity == entity && matches!(fact.change, Change::Inside(_) | Change::Held)
+            });
+            let kind = discourse.entities[entity].kind().to_owned();
+            if !placed && discourse.scene.accepts("Fridge", &kind) {
+                discourse.assume(format!("the {kind} stays in the Fridge that chills it"), 0.98);
+                let place = discourse.place_of_kind("Fridge");
+                facts.push(Fact { clause, entity, change: Change::Inside(place) });
+            }
+        }
+        // What is picked up only to be put down is not held.
+        let facts: Vec<Fact> = (0..facts.len())
+            .filter(|&i| {
+                facts[i].change != Change::Held
+                    || !facts.iter().skip(i + 1).any(|later| {
+                        later.entity == facts[i].entity && matches!(later.change, Change::Inside(_))
+                    })
+            })
+            .map(|i| facts[i].clone())
+            .collect();
+        let discourse = &*discourse;
+        let lasting = (0..facts.len()).map(|i| lasts(&facts, i, discourse)).collect();
+        Self { discourse, facts, lasting }
+    }
+
+    /// The sub-tasks, in the order of the clauses.
+    pub fn subtasks(&self, clauses: &[Clause<'_>]) -> Vec<Subtask> {
+        let mut found: Vec<(usize, Subtask)> = Vec::new();
+        let mut numbers: BTreeMap<usize, Vec<String>> = BTreeMap::new();
+        for (index, clause) in clauses.iter().enumerate() {
+            for lasting in [false, true] {
+                let goal = self.goal(index, lasting);
+                if goal.is_empty() {
+                    continue;
+                }
+                let id = format!("s{}", found.len() + 1);
+                let mut after = self.after(index, clauses, &numbers);
+                after.extend(numbers.get(&index).into_iter().flatten().cloned());
+                after.sort_by_key(|id| id[1..].parse::<usize>().unwrap_or(0));
+                after.dedup();
+                numbers.entry(index).or_default().push(id.clone());
+                found.push((
+                    index,
+                    Subtask { id, text: clause.text.clone(), goal, after, robots: Vec::new(), lasting },
+                ));
+            }
+        }
+        let mut subtasks: Vec<Subtask> = found.into_iter().map(|(_, subtask)| subtask).collect();
+        drop_lonely_marks(&mut subtasks);
+        subtasks
+    }
+
+    /// The sub-tasks that must be done before a clause.
+    fn after(&self, index: usize, clauses: &[Clause<'_>], numbers: &BTreeMap<usize, Vec<String>>) -> Vec<String> {
+        let mut found = Vec::new();
+        for earlier in 0..index {
+            let stated = clauses[earlier + 1..=index].iter().any(|clause| clause.link == Link::Then);
+            if stated || self.share(earlier, index) {
+                found.extend(numbers.get(&earlier).into_iter().flatten().cloned());
+            }
+        }
+        found
+    }
+
+    /// Whether two clauses do something to the same thing.
+    fn share(&self, a: usize, b: usize) -> bool {
+        let touched = |clause: usize| -> (BTreeSet<usize>, BTreeSet<usize>) {
+            let facts = self.facts.iter().filter(|fact| fact.clause == clause);
+            let mut subjects = BTreeSet::new();
+            let mut places = BTreeSet::new();
+            for fact in facts {
+                subjects.insert(fact.entity);
+                if let Change::Inside(place) = fact.change {
+                    places.insert(place);
+                }
+            }
+            (subjects, places)
+        };
+        let ((subjects, places), (later_subjects, later_places)) = (touched(a), touched(b));
+        !subjects.is_disjoint(&later_subjects)
+            || !subjects.is_disjoint(&later_places)
+            || !places.is_disjoint(&later_subjects)
+    }
+
+    /// The goal entries of a clause: those that last, or those that do not.
+    fn goal(&self, clause: usize, lasting: bool) -> Vec<GoalEntry> {
+        let mine: Vec<usize> = (0..self.facts.len())
+            .filter(|&i| self.facts[i].clause == clause && self.lasting[i] == lasting)
+            .collect();
+        let mut entries: Vec<(usize, GoalEntry)> = Vec::new();
+        let mut contained: BTreeSet<usize> = BTreeSet::new();
+        for &i in &mine {
+            if let Change::Inside(_) = self.facts[i].change {
+                contained.insert(self.facts[i].entity);
+            }
+        }
+        for &i in &mine {
+            let Fact { entity, change, .. } = &self.facts[i];
+            match change {
+                Change::Inside(place) if !(contained.contains(place) && lasting) => {
+                    let contents = self.contents(*entity, clause, 0);
+                    let at = self.entry(&mut entries, *place);
+                    for content in contents {
+                        if !matches!(&content, Content::Named(name) if entries[at].1.contains.iter().any(|c| matches!(c, Content::Named(n) if n == name)) && self.is_name(name)) {
+                            entries[at].1.contains.push(content);
+                        }
+                    }
+                }
+                Change::Inside(_) => {}
+                _ if contained.contains(entity) => {}
+                Change::State(property, value) => {
+                    let at = self.entry(&mut entries, *entity);
+                    entries[at].1.is.insert(property.clone(), value.clone());
+                }
+                Change::Held => {
+                    let at = self.entry(&mut entries, *entity);
+                    entries[at].1.is.insert("isPickedUp".to_owned(), super::yes());
+                }
+            }
+        }
+        entries.into_iter().map(|(_, entry)| entry).collect()
+    }
+
+    fn is_name(&self, name: &str) -> bool {
+        self.discourse.scene.named(name).is_some()
+    }
+
+    fn entry(&self, entries: &mut Vec<(usize, GoalEntry)>, entity: usize) -> usize {
+        if let Some(at) = entries.iter().position(|(known, _)| *known == entity) {
+            return at;
+        }
+        entries.push((entity, self.bare(entity)));
+        entries.len() - 1
+    }
+
+    /// An entity as an entry that says nothing of it yet.
+    fn bare(&self, entity: usize) -> GoalEntry {
+        let thing = &self.discourse.entities[entity];
+        let (object, all) = match &thing.which {
+            Which::Named(name) => (name.clone(), false),
+            Which::All => (thing.kind().to_owned(), true),
+            Which::Any => (thing.kind().to_owned(), false),
+        };
+        let one_of_many = thing.which == Which::Any && self.discourse.scene.of_kind(thing.kind()).len() != 1;
+        let same = one_of_many.then(|| format!("{}-{}", thing.kind().to_lowercase(), entity + 1));
+        GoalEntry { object, all, same, ..GoalEntry::default() }
+    }
+
+    /// An entity as what is contained: with the states it has by then, and its own contents.
+    fn contents(&self, entity: usize, clause: usize, depth: usize) -> Vec<Content> {
+        let thing = &self.discourse.entities[entity];
+        let mut entry = self.bare(entity);
+        entry.is = self.states(entity, clause);
+        if depth < DEEPEST {
+            for (i, fact) in self.facts.iter().enumerate() {
+                if fact.change == Change::Inside(entity) && fact.clause <= clause && self.lasting[i] && fact.entity != entity {
+                    entry.contains.extend(self.contents(fact.entity, clause, depth + 1));
+                }
+            }
+        }
+        if thing.which == Which::All {
+            let objects = self.discourse.scene.of_kind(thing.kind());
+            return objects
+                .iter()
+                .map(|object| {
+                    content(GoalEntry { object: object.name.clone(), all: false, same: None, ..entry.clone() })
+                })
+                .collect();
+        }
+        vec![content(entry)]
+    }
+
+    /// The lasting states an entity has when a clause is done.
+    fn states(&self, entity: usize, clause: usize) -> Settings {
+        let mut states = Settings::new();
+        for (fact, lasting) in self.facts.iter().zip(&self.lasting) {
+            if let (true, true, Change::State(property, value)) =
+                (fact.entity == entity && fact.clause <= clause, *lasting, &fact.change)
+            {
+                states.insert(property.clone(), value.clone());
+            }
+        }
+        states
+    }
+}
+
+fn content(entry: GoalEntry) -> Content {
+    if entry.is.is_empty() && entry.contains.is_empty() && entry.same.is_none() {
+        Content::Named(entry.object)
+    } else {
+        Content::With(Box::new(entry))
+    }
+}
+
+/// Whether nothing later undoes a fact: another value, another place, a fridge for what is hot.
+fn lasts(facts: &[Fact], index: usize, discourse: &Discourse<'_>) -> bool {
+    let fact = &facts[index];
+    let mut ends_cold = false;
+    for (i, other) in facts.iter().enumerate() {
+        if other.entity != fact.entity {
+            continue;
+        }
+        let later = i > index;
+        match (&fact.change, &other.change) {
+            (Change::State(a, x), Change::State(b, y)) if later && a == b && x != y => return false,
+            (Change::Inside(x), Change::Inside(y)) if later && x != y => return false,
+            (Change::Inside(_), Change::Held) | (Change::Held, Change::Inside(_)) if later => return false,
+            (Change::State(property, value), Change::Inside(place))
+                if property == "temperature" && *value == PropertyValue::Word("Hot".to_owned()) =>
+            {
+                ends_cold = discourse.scene.affords(discourse.entities[*place].kind(), "isColdSource");
+            }
+            _ => {}
+        }
+    }
+    !ends_cold
+}
+
+/// Removes marks that tie nothing: a mark on one entry alone.
+fn drop_lonely_marks(subtasks: &mut [Subtask]) {
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    let mut entries: Vec<&mut GoalEntry> = subtasks.iter_mut().flat_map(|subtask| &mut subtask.goal).collect();
+    for entry in &mut entries {
+        visit(entry, &mut |entry| {
+            if let Some(mark) = &entry.same {
+                *counts.entry(mark.clone()).or_default() += 1;
+            }
+        });
+    }
+    for entry in &mut entries {
+        visit(entry, &mut |entry| {
+            if entry.same.as_ref().is_some_and(|mark| counts.get(mark) == Some(&1)) {
+                entry.same = None;
+            }
+        });
+        simplify(entry);
+    }
+}
+
+/// Calls a function on an entry and on all it contains; entries are no deeper than [`DEEPEST`].
+fn visit(entry: &mut GoalEntry, action: &mut dyn FnMut(&mut GoalEntry)) {
+    action(entry);
+    for content in &mut entry.contains {
+        if let Content::With(inner) = content {
+            visit(inner, action);
+        }
+    }
+}
+
+/// Writes contents that have lost their conditions as names.
+fn simplify(entry: &mut GoalEntry) {
+    for slot in &mut entry.contains {
+        if let Content::With(inner) = slot {
+            simplify(inner);
+            *slot = content(std::mem::take(inner.as_mut()));
+        }
+    }
+}

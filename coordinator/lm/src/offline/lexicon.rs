@@ -1,0 +1,392 @@
+//! Knowledge as data: nouns, verbs, adjectives and small words, read from TOML and extensible by a user's
+//! file.
+//!
+//! Every phrase is filed under its letters alone ("cell phone", "cellphone" and "CellPhone" are one key),
+//! which is how compounds are joined and split.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use lamma_domains::goal::PropertyValue;
+use serde::Deserialize;
+
+use super::inflect::{self, VerbForm};
+use super::situation::Situation;
+use crate::LmError;
+
+const NOUNS: &str = include_str!("../../../../domains/household/lexicon/nouns.toml");
+const VERBS: &str = include_str!("../../../../domains/household/lexicon/verbs.toml");
+const WORDS: &str = include_str!("../../../../domains/household/lexicon/words.toml");
+const SITUATIONS: &str = include_str!("../../../../domains/household/lexicon/situations.toml");
+
+/// The longest phrase the lexicon looks for, in words.
+pub const LONGEST: usize = 6;
+
+/// Properties and the values they take.
+pub type Settings = BTreeMap<String, PropertyValue>;
+
+/// What a verb does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Act {
+    /// The object ends where the sentence says.
+    Place,
+    /// The object ends where such things are kept.
+    Store,
+    /// The object ends in the rubbish.
+    Discard,
+    /// The object ends in a hand.
+    Hold,
+    /// The object is held in the light of a lamp.
+    Examine,
+    /// The object gets cold.
+    Chill,
+    /// The object gets hot.
+    Heat,
+    /// The object gets cooked.
+    Cook,
+    /// The object gets the verb's properties.
+    Set,
+    /// The object gets filled.
+    Fill,
+    /// The object loses its liquid.
+    Empty,
+    /// The liquid goes into the place.
+    Pour,
+    /// Nothing but a way to go.
+    Go,
+    /// A state is to hold.
+    Keep,
+    /// An instrument is named.
+    Use,
+}
+
+/// A verb's effect schema.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Verb {
+    /// Its forms, with their particles.
+    pub words: Vec<String>,
+    /// What it does.
+    pub act: Act,
+    /// The properties that hold afterwards.
+    #[serde(default)]
+    pub set: Settings,
+    /// Types that a phrase may name as the instrument.
+    #[serde(default)]
+    pub tools: Vec<String>,
+    /// An affordance the object must have.
+    #[serde(default)]
+    pub wants: Option<String>,
+    /// Where the object goes when the sentence does not say.
+    #[serde(default)]
+    pub default: Vec<String>,
+    /// The device the verb names.
+    #[serde(default)]
+    pub device: Option<String>,
+}
+
+/// An adjective that names a state.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Adjective {
+    /// Its forms.
+    pub words: Vec<String>,
+    /// The state it names.
+    pub set: Settings,
+    /// It picks a thing out and asks for nothing.
+    #[serde(default)]
+    pub selects: bool,
+}
+
+/// What a noun may stand for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Noun {
+    /// The phrase it is filed under.
+    pub word: String,
+    /// Object types: alternatives, the likelier first, or the members of a class.
+    pub kinds: Vec<String>,
+    /// Whether the types are members of a class rather than alternatives.
+    pub class: bool,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(default)]
+    types: BTreeMap<String, Vec<String>>,
+    #[serde(default)]
+    words: BTreeMap<String, Vec<String>>,
+    #[serde(default)]
+    classes: BTreeMap<String, Vec<String>>,
+    #[serde(default)]
+    verb: Vec<Verb>,
+    #[serde(default)]
+    adjective: Vec<Adjective>,
+    #[serde(default)]
+    small: BTreeMap<String, Vec<String>>,
+    #[serde(default)]
+    situation: Vec<Situation>,
+    #[serde(default)]
+    controls: BTreeMap<String, String>,
+    #[serde(default)]
+    homes: BTreeMap<String, Vec<String>>,
+    #[serde(default)]
+    under: BTreeMap<String, String>,
+    #[serde(default)]
+    inside: BTreeMap<String, Vec<String>>,
+}
+
+/// The lexicon.
+#[derive(Clone, Debug, Default)]
+pub struct Lexicon {
+    nouns: BTreeMap<String, Noun>,
+    verbs: Vec<Verb>,
+    /// First word of a verb -> (particles, verb), in the order of the files.
+    verb_index: BTreeMap<String, Vec<(Vec<String>, usize)>>,
+    adjectives: BTreeMap<String, Adjective>,
+    small: BTreeMap<String, BTreeSet<String>>,
+    situations: Vec<Situation>,
+    controls: BTreeMap<String, String>,
+    homes: BTreeMap<String, Vec<String>>,
+    under: BTreeMap<String, String>,
+    inside: BTreeMap<String, Vec<String>>,
+    vocabulary: BTreeSet<String>,
+}
+
+impl Lexicon {
+    /// The lexicon that is built in.
+    pub fn embedded() -> Result<Self, LmError> {
+        let mut lexicon = Self::default();
+        for (name, text) in
+            [("nouns", NOUNS), ("verbs", VERBS), ("words", WORDS), ("situations", SITUATIONS)]
+        {
+            lexicon.extend(&format!("the built-in lexicon ({name}.toml)"), text)?;
+        }
+        Ok(lexicon)
+    }
+
+    /// Adds a file's entries; where they disagree with what is there, the file wins.
+    pub fn extend(&mut self, name: &str, text: &str) -> Result<(), LmError> {
+        let file: File = toml::from_str(text).map_err(|error| {
+            LmError::Configuration(format!("{name}: {error}; see the tables of the built-in lexicon"))
+        })?;
+        for (kind, words) in file.types {
+            self.add_type(&kind);
+            for word in words {
+                self.add_noun(&word, vec![kind.clone()], false);
+            }
+        }
+        for (word, kinds) in file.words {
+            self.add_noun(&word, kinds, false);
+        }
+        for (word, kinds) in file.classes {
+            self.add_noun(&word, kinds, true);
+        }
+        for verb in file.verb {
+            self.add_verb(verb);
+        }
+        for adjective in file.adjective {
+            for word in &adjective.words {
+                self.learn(word);
+                self.adjectives.insert(squash(word), adjective.clone());
+            }
+        }
+        for (list, words) in file.small {
+            for word in words {
+                self.learn(&word);
+                self.small.entry(list.clone()).or_default().insert(squash(&word));
+            }
+        }
+        self.controls.extend(file.controls);
+        self.homes.extend(file.homes);
+        self.under.extend(file.under);
+        self.inside.extend(file.inside);
+        for situation in file.situation {
+            for word in situation.vocabulary() {
+                self.vocabulary.insert(word);
+            }
+            self.situations.push(situation);
+        }
+        Ok(())
+    }
+
+    /// Whether a type is known by its own name.
+    pub fn knows_type(&self, kind: &str) -> bool {
+        self.nouns.contains_key(&squash(kind))
+    }
+
+    /// Makes a type known by its own name, unless the name has a meaning already.
+    pub fn add_type(&mut self, kind: &str) {
+        let phrase = split_camel_case(kind);
+        if !self.nouns.contains_key(&squash(&phrase)) {
+            self.add_noun(&phrase, vec![kind.to_owned()], false);
+        }
+    }
+
+    fn add_noun(&mut self, word: &str, kinds: Vec<String>, class: bool) {
+        self.learn(word);
+        self.nouns.insert(squash(word), Noun { word: word.to_owned(), kinds, class });
+    }
+
+    fn add_verb(&mut self, verb: Verb) {
+        let index = self.verbs.len();
+        for phrase in &verb.words {
+            let mut words = phrase.split_whitespace().map(str::to_owned);
+            if let Some(first) = words.next() {
+                self.verb_index.entry(first).or_default().push((words.collect(), index));
+            }
+        }
+        for phrase in verb.words.clone() {
+            self.learn(&phrase);
+        }
+        self.verbs.push(verb);
+    }
+
+    fn learn(&mut self, phrase: &str) {
+        self.vocabulary.extend(phrase.split_whitespace().map(str::to_lowercase));
+    }
+
+    /// The noun these words write, and whether they are a plural of it.
+    pub fn noun(&self, words: &[&str]) -> Option<(&Noun, bool)> {
+        let joined = words.concat();
+        if let Some(noun) = self.nouns.get(&joined) {
+            return Some((noun, self.looks_plural(&joined)));
+        }
+        let (last, front) = words.split_last()?;
+        let front = front.concat();
+        inflect::singulars(last)
+            .iter()
+            .find_map(|singular| self.nouns.get(&format!("{front}{singular}")))
+            .or_else(|| {
+                // "credits cards": plural all over.
+                let all: Option<Vec<String>> =
+                    words.iter().map(|word| inflect::singulars(word).into_iter().next()).collect();
+                all.filter(|all| all.len() > 1).and_then(|all| self.nouns.get(&all.concat()))
+            })
+            .map(|noun| (noun, true))
+    }
+
+    /// Whether a word that has an entry of its own is the plural of another entry ("curtains", "lights").
+    fn looks_plural(&self, joined: &str) -> bool {
+        let entry = self.nouns.get(joined);
+        entry.is_some_and(|noun| noun.class && joined.ends_with('s') && !joined.ends_with("ss"))
+            || inflect::singulars(joined)
+                .iter()
+                .any(|s| self.nouns.get(s).is_some_and(|single| entry.is_none_or(|e| e.kinds != single.kinds)))
+    }
+
+    /// The verbs a word may begin, with their particles, the particle-rich first.
+    pub fn verbs(&self, word: &str) -> Vec<(VerbForm, &[String], &Verb)> {
+        let mut found: Vec<(VerbForm, &[String], &Verb)> = Vec::new();
+        for (base, form) in inflect::bases(word) {
+            for (particles, index) in self.verb_index.get(&base).map(Vec::as_slice).unwrap_or_default() {
+                found.push((form, particles, &self.verbs[*index]));
+            }
+        }
+        found.sort_by_key(|(_, particles, _)| std::cmp::Reverse(particles.len()));
+        found
+    }
+
+    /// The state an adjective names.
+    pub fn adjective(&self, words: &[&str]) -> Option<&Adjective> {
+        self.adjectives.get(&words.concat())
+    }
+
+    /// Whether the words are in one of the lists of small words.
+    pub fn is_small(&self, list: &str, words: &[&str]) -> bool {
+        self.small.get(list).is_some_and(|known| known.contains(&words.concat()))
+    }
+
+    /// The longest entry of a list of small words at the start of `words`, in words.
+    pub fn longest_small(&self, list: &str, words: &[&str]) -> Option<usize> {
+        (1..=LONGEST.min(words.len())).rev().find(|&n| self.is_small(list, &words[..n]))
+    }
+
+    /// What switches a thing that has no switch of its own.
+    pub fn control(&self, kind: &str) -> Option<&str> {
+        self.controls.get(kind).map(String::as_str)
+    }
+
+    /// Where things of a type are kept, the likelier first.
+    pub fn homes(&self, kind: &str) -> impl Iterator<Item = &str> {
+        let own = self.homes.get(kind).into_iter().flatten();
+        own.chain(self.homes.get("anything").into_iter().flatten()).map(String::as_str)
+    }
+
+    /// What a word means for something inside a vessel.
+    pub fn inside(&self, word: &str) -> Option<&[String]> {
+        self.inside.get(word).map(Vec::as_slice)
+    }
+
+    /// What is meant by "under" a thing.
+    pub fn under(&self, kind: &str) -> Option<&str> {
+        self.under.get(kind).map(String::as_str)
+    }
+
+    /// The surfaces something may stand on "beside" a thing, the likelier first.
+    pub fn beside(&self) -> impl Iterator<Item = &str> {
+        self.homes.get("beside").into_iter().flatten().map(String::as_str)
+    }
+
+    /// The situations.
+    pub fn situations(&self) -> &[Situation] {
+        &self.situations
+    }
+
+    /// The words it knows, for spelling.
+    pub fn vocabulary(&self) -> &BTreeSet<String> {
+        &self.vocabulary
+    }
+}
+
+/// A phrase's key: its letters and digits alone, in lower case.
+pub fn squash(phrase: &str) -> String {
+    phrase.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+/// `TennisRacket` -> `tennis racket`, `TVStand` -> `tv stand`.
+pub fn split_camel_case(name: &str) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    let mut phrase = String::new();
+    for (i, &letter) in letters.iter().enumerate() {
+        let after_lower = i > 0 && letters[i - 1].is_lowercase();
+        let before_lower = i > 0 && letters.get(i + 1).is_some_and(|next| next.is_lowercase());
+        if letter.is_uppercase() && (after_lower || before_lower) {
+            phrase.push(' ');
+        }
+        phrase.extend(letter.to_lowercase());
+    }
+    phrase.replace('_', " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_built_in_lexicon_reads() {
+        let lexicon = Lexicon::embedded().unwrap();
+        assert_eq!(lexicon.noun(&["cell", "phones"]).unwrap().0.kinds, ["CellPhone"]);
+        assert!(lexicon.noun(&["cellphones"]).unwrap().1);
+        assert_eq!(lexicon.noun(&["baseballbat"]).unwrap().0.kinds, ["BaseballBat"]);
+        assert!(lexicon.noun(&["knives"]).unwrap().1);
+        assert!(!lexicon.noun(&["keys"]).unwrap().1);
+        assert!(lexicon.verbs("washed").iter().any(|(form, _, _)| *form == VerbForm::Past));
+    }
+
+    #[test]
+    fn a_users_file_wins_and_a_wrong_one_says_where() {
+        let mut lexicon = Lexicon::embedded().unwrap();
+        lexicon.extend("mine", "[types]\nGadget3000 = [\"thingamajig\"]").unwrap();
+        assert_eq!(lexicon.noun(&["thingamajig"]).unwrap().0.kinds, ["Gadget3000"]);
+        let error = lexicon.extend("mine", "[tpyes]\n").unwrap_err().to_string();
+        assert!(error.contains("mine") && error.contains("tpyes"), "{error}");
+    }
+
+    #[test]
+    fn camel_case_splits_into_words() {
+        assert_eq!(split_camel_case("TennisRacket"), "tennis racket");
+        assert_eq!(split_camel_case("TVStand"), "tv stand");
+        assert_eq!(split_camel_case("CD"), "cd");
+    }
+}

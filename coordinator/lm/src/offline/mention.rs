@@ -1,0 +1,586 @@
+//! From noun phrases to things of the scene: new ones, ones spoken of before, and classes of them.
+
+use std::collections::BTreeSet;
+
+use super::lexicon::{Lexicon, Noun, Settings};
+use super::scene::{Scene, is_in_state};
+use super::syntax::{Head, Phrase, Place, Quantity};
+use crate::ObjectView;
+
+/// Which objects of its type an entity is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Which {
+    /// Any one.
+    Any,
+    /// Every one.
+    All,
+    /// This one.
+    Named(String),
+}
+
+/// Something spoken of.
+#[derive(Clone, Debug)]
+pub struct Entity {
+    /// The types it may be, the likelier first.
+    pub kinds: Vec<String>,
+    /// Which of them.
+    pub which: Which,
+    /// In words.
+    pub text: String,
+    /// States the words ask for.
+    pub asked: Settings,
+    /// What the words say it holds.
+    pub holds: Vec<usize>,
+}
+
+impl Entity {
+    /// The type it is taken to be.
+    pub fn kind(&self) -> &str {
+        self.kinds.first().map(String::as_str).unwrap_or_default()
+    }
+}
+
+/// What a clause spoke of.
+#[derive(Clone, Debug, Default)]
+pub struct Spoken {
+    /// What it was done to.
+    pub objects: Vec<usize>,
+    /// Where it went.
+    pub places: Vec<usize>,
+    /// The clause put the objects in the places.
+    pub placed: bool,
+}
+
+/// Everything spoken of so far, and what was taken for granted or not understood.
+pub struct Discourse<'a> {
+    pub(super) lexicon: &'a Lexicon,
+    pub(super) scene: &'a Scene<'a>,
+    /// The things.
+    pub entities: Vec<Entity>,
+    /// By clause.
+    pub spoken: Vec<Spoken>,
+    /// Taken for granted.
+    pub assumptions: Vec<String>,
+    /// Not understood, or not possible here.
+    pub problems: Vec<String>,
+    /// From 0 to 1.
+    pub confidence: f64,
+}
+
+impl<'a> Discourse<'a> {
+    /// Nothing spoken of yet.
+    pub fn new(lexicon: &'a Lexicon, scene: &'a Scene<'a>) -> Self {
+        Self {
+            lexicon,
+            scene,
+            entities: Vec::new(),
+            spoken: Vec::new(),
+            assumptions: Vec::new(),
+            problems: Vec::new(),
+            confidence: 1.0,
+        }
+    }
+
+    /// Notes a problem and what it costs.
+    pub fn problem(&mut self, text: String, factor: f64) {
+        if !self.problems.contains(&text) {
+            self.problems.push(text);
+            self.confidence *= factor;
+        }
+    }
+
+    /// Notes something taken for granted and what it costs.
+    pub fn assume(&mut self, text: String, factor: f64) {
+        if !self.assumptions.contains(&text) {
+            self.assumptions.push(text);
+            self.confidence *= factor;
+        }
+    }
+
+    /// The things a phrase names; `at` says where they are, `wants` what they must afford.
+    pub fn mention(&mut self, phrase: &Phrase, at: &[Place], wants: Option<&str>) -> Vec<usize> {
+        let found = match &phrase.head {
+            Head::Noun(noun) => self.noun(noun, phrase, at, wants),
+            Head::Named(name) => self.named(name),
+            Head::Pronoun { plural } => self.pronoun(*plural, wants),
+            Head::Slices => self.slices(),
+            Head::Everything => self.everything(phrase, at),
+            Head::Liquid(_) | Head::Room => Vec::new(),
+            Head::Unknown(word) => {
+                self.problem(format!("I do not know what \"{word}\" is"), 0.25);
+                Vec::new()
+            }
+        };
+        let contents: Vec<usize> =
+            if found.len() == 1 { self.contents(found[0], &phrase.with) } else { Vec::new() };
+        for &entity in &found {
+            self.entities[entity].asked.extend(phrase.states.clone());
+            for &content in &contents {
+                if !self.entities[entity].holds.contains(&content) {
+                    self.entities[entity].holds.push(content);
+                }
+            }
+        }
+        found
+    }
+
+    /// What "with …" or "of …" says a thing holds; phrases it cannot hold say nothing.
+    fn contents(&mut self, holder: usize, with: &[Phrase]) -> Vec<usize> {
+        let mut found = Vec::new();
+        for phrase in with {
+            if let Head::Liquid(_) = phrase.head {
+                continue;
+            }
+            let Head::Noun(noun) = &phrase.head else { continue };
+            let holders = self.entities[holder].kinds.clone();
+            let scene = self.scene;
+            let fitting: Vec<String> = holders
+                .iter()
+                .filter(|kind| {
+                    scene.affords(kind, "pickupable") && noun.kinds.iter().any(|content| scene.accepts(kind, content))
+                })
+                .cloned()
+                .collect();
+            if fitting.is_empty() {
+                continue;
+            }
+            let mut narrowed = phrase.clone();
+            narrowed.indefinite |= phrase.quantity == Quantity::One && !phrase.definite;
+            let kinds = self.lexicon.inside(&noun.word).unwrap_or(&noun.kinds);
+            narrowed.head = Head::Noun(Noun {
+                kinds: kinds
+                    .iter()
+                    .filter(|content| scene.has(content) && fitting.iter().any(|kind| scene.accepts(kind, content)))
+                    .cloned()
+                    .collect(),
+                ..noun.clone()
+            });
+            if phrase.quantity == Quantity::Plural || phrase.quantity == Quantity::All {
+                narrowed.quantity = Quantity::Plural;
+            }
+            self.entities[holder].kinds = fitting;
+            found.extend(self.mention(&narrowed, &[], None));
+        }
+        found
+    }
+
+    fn add(&mut self, kinds: Vec<String>, which: Which, text: &str) -> usize {
+        self.entities.push(Entity {
+            kinds,
+            which,
+            text: text.to_owned(),
+            asked: Settings::new(),
+            holds: Vec::new(),
+        });
+        self.entities.len() - 1
+    }
+
+    fn named(&mut self, name: &str) -> Vec<usize> {
+        if let Some(known) =
+            self.entities.iter().position(|entity| entity.which == Which::Named(name.to_owned()))
+        {
+            return vec![known];
+        }
+        match self.scene.named(name) {
+            Some(object) => vec![self.add(vec![object.kind.clone()], Which::Named(name.to_owned()), name)],
+            None => Vec::new(),
+        }
+    }
+
+    fn noun(&mut self, noun: &Noun, phrase: &Phrase, at: &[Place], wants: Option<&str>) -> Vec<usize> {
+        if let Some(known) = self.spoken_of_before(noun, phrase) {
+            return known;
+        }
+        let mut kinds: Vec<String> = noun.kinds.iter().filter(|kind| self.scene.has(kind)).cloned().collect();
+        if kinds.is_empty() {
+            self.problem(format!("there is no {} here", noun.word), 0.2);
+            return Vec::new();
+        }
+        if let Some(wants) = wants {
+            let able: Vec<String> = kinds.iter().filter(|kind| self.affords(kind, wants)).cloned().collect();
+            if !able.is_empty() {
+                kinds = able;
+            }
+        }
+        let except = self.exceptions(&phrase.except);
+        kinds.retain(|kind| !except.contains(kind.as_str()));
+        if noun.class {
+            return self.class(noun, &kinds, phrase, at);
+        }
+        match phrase.quantity {
+            Quantity::One => vec![self.one(kinds, phrase, at)],
+            Quantity::Count(count) => self.several(&kinds, count, phrase, at),
+            Quantity::Plural => {
+                let most = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).max().unwrap_or(1);
+                self.several(&kinds, most.min(2), phrase, at)
+            }
+            Quantity::All => self.every(&kinds[..1.min(kinds.len())], phrase, at),
+        }
+    }
+
+    fn affords(&self, kind: &str, affordance: &str) -> bool {
+        self.scene.affords(kind, affordance)
+            || (affordance == "toggleable" && self.lexicon.control(kind).is_some_and(|c| self.scene.has(c)))
+    }
+
+    /// The same words again mean the same thing, unless they say "another" or "a".
+    fn spoken_of_before(&self, noun: &Noun, phrase: &Phrase) -> Option<Vec<usize>> {
+        let sliced_again = phrase.states.contains_key("isSliced")
+            && self.entities.iter().any(|e| e.asked.contains_key("isSliced") && overlaps(e, noun));
+        if phrase.other
+            || noun.class && phrase.quantity != Quantity::One && !phrase.definite
+            || (phrase.indefinite && !sliced_again)
+            || !sliced_again && matches!(phrase.quantity, Quantity::Count(_) | Quantity::Plural)
+        {
+            return None;
+        }
+        for spoken in self.spoken.iter().rev() {
+            for group in [&spoken.objects, &spoken.places] {
+                let known: Vec<usize> =
+                    group.iter().copied().filter(|&e| overlaps(&self.entities[e], noun)).collect();
+                let wanted_one = phrase.quantity == Quantity::One && known.len() == 1;
+                let wanted_all = phrase.quantity == Quantity::All && phrase.definite && known.len() > 1;
+                if wanted_one || wanted_all {
+                    return Some(known);
+                }
+            }
+        }
+        None
+    }
+
+    /// Types and names that "except …" takes out.
+    fn exceptions(&self, except: &[Phrase]) -> BTreeSet<String> {
+        let mut found = BTreeSet::new();
+        for phrase in except {
+            match &phrase.head {
+                Head::Noun(noun) => found.extend(noun.kinds.iter().cloned()),
+                Head::Named(name) => {
+                    found.insert(name.clone());
+                }
+                _ => {}
+            }
+        }
+        found
+    }
+
+    fn one(&mut self, kinds: Vec<String>, phrase: &Phrase, at: &[Place]) -> usize {
+        let selected = self.selected(&kinds, phrase, at);
+        let taken: BTreeSet<String> = self
+            .entities
+            .iter()
+            .filter_map(|e| if let Which::Named(name) = &e.which { Some(name.clone()) } else { None })
+            .collect();
+        if let Some(object) = selected.iter().find(|object| !taken.contains(&object.name)) {
+            let (kind, name) = (object.kind.clone(), object.name.clone());
+            self.assume(format!("\"{}\" is {name}", phrase.text), 1.0);
+            return self.add(vec![kind], Which::Named(name), &phrase.text);
+        }
+        self.add(kinds, Which::Any, &phrase.text)
+    }
+
+    /// The objects of the first of the types that words or places pick out; empty when they pick out none
+    /// or do not tell objects apart.
+    fn selected(&self, kinds: &[String], phrase: &Phrase, at: &[Place]) -> Vec<&'a ObjectView> {
+        for kind in kinds {
+            let all = self.scene.of_kind(kind);
+            if all.len() < 2 {
+                continue;
+            }
+            let fits = |object: &&&ObjectView| {
+                is_in_state(object, &phrase.selects)
+                    && (!phrase.definite || is_in_state(object, &phrase.states) || phrase.states.contains_key("isDirty"))
+                    && phrase.at.iter().chain(at).all(|place| self.is_at(object, place))
+            };
+            let some: Vec<&ObjectView> = all.iter().filter(fits).copied().collect();
+            if !some.is_empty() && some.len() < all.len() {
+                return some;
+            }
+        }
+        Vec::new()
+    }
+
+    /// Whether an object is where a phrase says, as far as it can be told.
+    fn is_at(&self, object: &ObjectView, place: &Place) -> bool {
+        match &place.phrase.head {
+            Head::Noun(noun) => {
+                !noun.kinds.iter().any(|kind| self.scene.has(kind))
+                    || self.scene.lies_in(object, &|parent| noun.kinds.contains(&parent.kind))
+            }
+            Head::Named(name) => self.scene.lies_in(object, &|parent| parent.name == *name),
+            _ => true,
+        }
+    }
+
+    /// So many different objects: of one type if there are enough of it.
+    fn several(&mut self, kinds: &[String], count: usize, phrase: &Phrase, at: &[Place]) -> Vec<usize> {
+        let count = count.min(64);
+        let enough = kinds.iter().position(|kind| self.scene.of_kind(kind).len() >= count);
+        let sliced = phrase.states.contains_key("isSliced");
+        let mut order = kinds.to_vec();
+        match enough {
+            Some(at) => order.swap(0, at),
+            None if sliced => {}
+            None => {
+                let there: usize = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).sum();
+                if there < count {
+                    self.problem(format!("there are not {count} of \"{}\" here, only {there}", phrase.text), 0.45);
+                }
+                return self.spread(kinds, count.min(there), phrase);
+            }
+        }
+        let selected = self.selected(&order[..1], phrase, at);
+        if selected.len() >= count {
+            let names: Vec<(String, String)> =
+                selected.iter().take(count).map(|o| (o.kind.clone(), o.name.clone())).collect();
+            return names.into_iter().map(|(kind, name)| self.add(vec![kind], Which::Named(name), &phrase.text)).collect();
+        }
+        (0..count).map(|_| self.add(order.clone(), Which::Any, &phrase.text)).collect()
+    }
+
+    /// Every object of the types that is picked out.
+    fn every(&mut self, kinds: &[String], phrase: &Phrase, at: &[Place]) -> Vec<usize> {
+        let mut found = Vec::new();
+        let except = self.exceptions(&phrase.except);
+        for kind in kinds {
+            let all = self.scene.of_kind(kind);
+            let selected = self.selected(std::slice::from_ref(kind), phrase, at);
+            if all.len() == 1 {
+                found.push(self.add(vec![kind.clone()], Which::Any, &phrase.text));
+            } else if selected.is_empty() && except.is_empty() {
+                found.push(self.add(vec![kind.clone()], Which::All, &phrase.text));
+            } else {
+                let chosen = if selected.is_empty() { all.to_vec() } else { selected };
+                for object in chosen {
+                    if !except.contains(&object.name) && !except.contains(&object.kind) {
+                        found.push(self.add(vec![kind.clone()], Which::Named(object.name.clone()), &phrase.text));
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    /// Members of a class: all of them for a plural, so many of different types for a number.
+    fn class(&mut self, noun: &Noun, kinds: &[String], phrase: &Phrase, at: &[Place]) -> Vec<usize> {
+        let uncountable = !noun.word.ends_with('s') && ["food", "cutlery", "silverware", "produce", "fruit"].contains(&noun.word.as_str());
+        let found = match phrase.quantity {
+            Quantity::Count(count) => {
+                let there: usize = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).sum();
+                if there < count {
+                    self.problem(format!("there are not {count} of \"{}\" here, only {there}", phrase.text), 0.45);
+                }
+                self.spread(kinds, count.min(there), phrase)
+            }
+            Quantity::One if !uncountable || phrase.indefinite => vec![self.one(kinds.to_vec(), phrase, at)],
+            _ => self.every(kinds, phrase, at),
+        };
+        let names: Vec<&str> = found.iter().map(|&e| self.entities[e].kind()).collect();
+        let text = format!("\"{}\" here means {}", phrase.text, names.join(", "));
+        self.assume(text, 0.97);
+        found
+    }
+
+    /// So many objects, of as many types as possible.
+    fn spread(&mut self, kinds: &[String], count: usize, phrase: &Phrase) -> Vec<usize> {
+        let mut found = Vec::new();
+        let mut round = 0;
+        while found.len() < count && round < 64 {
+            for kind in kinds {
+                if found.len() < count && self.scene.of_kind(kind).len() > round {
+                    found.push(self.add(vec![kind.clone()], Which::Any, &phrase.text));
+                }
+            }
+            round += 1;
+        }
+        found
+    }
+
+    fn slices(&mut self) -> Vec<usize> {
+        let last = (0..self.entities.len()).rev().find(|&e| {
+            self.entities[e].kinds.iter().any(|kind| self.scene.affords(kind, "sliceable"))
+        });
+        if last.is_none() {
+            self.problem("it is not said what the slices are of".to_owned(), 0.3);
+        }
+        last.into_iter().collect()
+    }
+
+    fn everything(&mut self, phrase: &Phrase, at: &[Place]) -> Vec<usize> {
+        let places: Vec<&Place> = phrase.at.iter().chain(at).collect();
+        let except = self.exceptions(&phrase.except);
+        let mentioned: BTreeSet<String> = if phrase.other {
+            self.entities.iter().map(|e| e.kind().to_owned()).collect()
+        } else {
+            BTreeSet::new()
+        };
+        if places.is_empty() && !phrase.other {
+            self.assume(format!("\"{}\" means every single thing that can be carried", phrase.text), 0.45);
+        }
+        let chosen: Vec<(String, String)> = self
+            .scene
+            .kinds()
+            .flat_map(|kind| self.scene.of_kind(kind))
+            .filter(|object| object.affordances.iter().any(|a| a == "pickupable"))
+            .filter(|object| places.iter().all(|place| self.is_at(object, place)))
+            .filter(|object| !except.contains(&object.kind) && !except.contains(&object.name))
+            .filter(|object| !mentioned.contains(&object.kind))
+            .map(|object| (object.kind.clone(), object.name.clone()))
+            .collect();
+        if chosen.is_empty() {
+            self.problem(format!("there is nothing that \"{}\" could mean", phrase.text), 0.3);
+        }
+        chosen.into_iter().map(|(kind, name)| self.add(vec![kind], Which::Named(name), &phrase.text)).collect()
+    }
+
+    fn pronoun(&mut self, plural: bool, wants: Option<&str>) -> Vec<usize> {
+        let fits = |this: &Self, group: &[usize]| {
+            !group.is_empty()
+                && wants.is_none_or(|wants| {
+                    group.iter().all(|&e| this.entities[e].kinds.iter().any(|kind| this.affords(kind, wants)))
+                })
+        };
+        let last = self.spoken.iter().rev().find(|s| !s.objects.is_empty() || !s.places.is_empty());
+        // "put the fork in the cup and put it in the sink": the cup goes, with the fork in it.
+        if let Some(spoken) = last
+            && spoken.placed
+            && wants == Some("pickupable")
+            && !plural
+            && fits(self, &spoken.places)
+        {
+            return spoken.places.clone();
+        }
+        // "put the pen in the cup and put them on the desk": again the cup, with what is in it.
+        if let Some(spoken) = last
+            && spoken.placed
+            && plural
+            && wants == Some("pickupable")
+            && spoken.objects.len() == 1
+            && fits(self, &spoken.places)
+        {
+            return spoken.places.clone();
+        }
+        if plural {
+            let mut all: Vec<usize> = Vec::new();
+            for spoken in self.spoken.iter().rev() {
+                for &object in &spoken.objects {
+                    if fits(self, &[object]) && !all.contains(&object) {
+                        all.push(object);
+                    }
+                }
+                let many = all.len() > 1 || all.iter().any(|&e| self.entities[e].which == Which::All);
+                if many {
+                    break;
+                }
+            }
+            all.sort_unstable();
+            if !all.is_empty() {
+                return all;
+            }
+        }
+        for spoken in self.spoken.iter().rev() {
+            for group in [&spoken.objects, &spoken.places] {
+                if fits(self, group) {
+                    return group.clone();
+                }
+            }
+        }
+        let word = if plural { "them" } else { "it" };
+        self.problem(format!("it is not said what \"{word}\" is"), 0.3);
+        Vec::new()
+    }
+}
+
+fn overlaps(entity: &Entity, noun: &Noun) -> bool {
+    entity.kinds.iter().any(|kind| noun.kinds.contains(kind))
+}
+
+impl Discourse<'_> {
+    /// A thing of a type, or all of the type, that a situation speaks of.
+    pub fn entity(&mut self, kind: &str, which: Which) -> usize {
+        let known = self.entities.iter().position(|entity| entity.kind() == kind && entity.which == which);
+        known.unwrap_or_else(|| self.add(vec![kind.to_owned()], which, kind))
+    }
+
+    /// A thing of a type that was not named itself.
+    pub fn place_of_kind(&mut self, kind: &str) -> usize {
+        let known = self.entities.iter().position(|entity| entity.kind() == kind);
+        known.unwrap_or_else(|| self.add(vec![kind.to_owned()], Which::Any, kind))
+    }
+
+    /// What switches an entity: one of them to be on, all of them to be off.
+    pub fn control(&mut self, entity: usize, control: String, on: bool) -> usize {
+        let text = self.entities[entity].text.clone();
+        self.assume(format!("\"{text}\" is switched by the {control}"), 0.98);
+        let many = self.scene.of_kind(&control).len() > 1;
+        let which = if on || !many { Which::Any } else { Which::All };
+        let known = self.entities.iter().position(|e| e.kind() == control);
+        known.unwrap_or_else(|| self.add(vec![control], which, &text))
+    }
+
+    /// Lets the receptacle and the thing decide what each other is: the best pair of types that go together.
+    pub fn fit(&mut self, entity: usize, place: usize) {
+        let (things, places) = (self.entities[entity].kinds.clone(), self.entities[place].kinds.clone());
+        let mut best: Option<(usize, &str, &str)> = None;
+        for (i, thing) in things.iter().enumerate() {
+            for (j, place) in places.iter().enumerate() {
+                let rank = 2 * (i + j) + if self.scene.surely_accepts(place, thing) { 0 } else { 3 };
+                if self.scene.accepts(place, thing) && best.is_none_or(|(known, _, _)| rank < known) {
+                    best = Some((rank, thing, place));
+                }
+            }
+        }
+        let Some((_, _, chosen)) = best else {
+            let (thing, place) = (self.entities[entity].kind().to_owned(), self.entities[place].kind().to_owned());
+            self.assume(format!("a {place} is not known to take a {thing}"), 0.8);
+            return;
+        };
+        let chosen = chosen.to_owned();
+        let scene = self.scene;
+        self.entities[entity].kinds.retain(|thing| scene.accepts(&chosen, thing));
+        let thing = self.entities[entity].kind().to_owned();
+        let place = &mut self.entities[place].kinds;
+        place.retain(|kind| scene.accepts(kind, &thing));
+        place.sort_by_key(|kind| *kind != chosen);
+    }
+
+    /// Asked-for states, with "cooked" read as "hot" for what nothing can cook.
+    pub fn possible_states(&self, entity: usize, states: Settings) -> Settings {
+        states
+            .into_iter()
+            .map(|(property, value)| {
+                if property == "isCooked" && !self.can_be_cooked(self.entities[entity].kind()) {
+                    ("temperature".to_owned(), lamma_domains::goal::PropertyValue::Word("Hot".to_owned()))
+                } else {
+                    (property, value)
+                }
+            })
+            .collect()
+    }
+
+    fn can_be_cooked(&self, kind: &str) -> bool {
+        self.scene.affords(kind, "cookable") || kind == "Bread"
+    }
+
+    /// The states a verb brings to a thing of this kind; notes what is not possible.
+    pub fn adapted_states(&mut self, entity: usize, verb: &super::lexicon::Verb) -> Settings {
+        let kind = self.entities[entity].kind().to_owned();
+        let states = self.possible_states(entity, verb.set.clone());
+        for property in states.keys() {
+            let needed = match property.as_str() {
+                "isOpen" => "openable",
+                "isToggled" => "toggleable",
+                "isSliced" => "sliceable",
+                "isBroken" => "breakable",
+                _ => continue,
+            };
+            if !self.scene.affords(&kind, needed) && !self.entities[entity].kinds.is_empty() {
+                let text = self.entities[entity].text.clone();
+                self.problem(format!("\"{text}\" ({kind}) is not {needed}"), 0.3);
+            }
+        }
+        if verb.set.contains_key("isCooked") && states.contains_key("temperature") {
+            self.assume(format!("cooking the {kind} means heating it"), 0.97);
+        }
+        states
+    }
+}

@@ -1,0 +1,317 @@
+//! The embedded default: a semantic parser grounded in the scene, with no model and no network.
+//!
+//! The stages: [`text`] (words and spelling), [`clause`] and [`phrase`] (grammar), [`mention`] (which things
+//! of the scene are meant), [`effect`] (what each verb makes of them), [`situation`] (vague commands), and
+//! [`emit`] (sub-tasks). The knowledge is data ([`lexicon`]); the code knows grammar. Everything is
+//! deterministic, and what is not understood is asked for, never guessed.
+
+mod clause;
+mod effect;
+mod emit;
+mod inflect;
+mod lexicon;
+mod mention;
+mod phrase;
+mod scene;
+mod situation;
+mod syntax;
+mod text;
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use lamma_domains::goal::PropertyValue;
+
+use crate::{Answer, Clarification, Decomposition, LanguageModel, LmError, Request};
+use clause::Parser;
+use effect::{Change, Fact, Interpreter};
+use emit::Emitter;
+use lexicon::{Act, Lexicon};
+use mention::{Discourse, Spoken};
+use scene::Scene;
+use syntax::Clause;
+pub(crate) use text::damerau_levenshtein;
+
+/// Below this confidence it asks.
+const THRESHOLD: f64 = 0.5;
+
+/// `true`, as a property's value.
+fn yes() -> PropertyValue {
+    PropertyValue::Flag(true)
+}
+
+/// `false`, as a property's value.
+fn no() -> PropertyValue {
+    PropertyValue::Flag(false)
+}
+
+/// The value that "not" makes of a value.
+fn opposite(value: &PropertyValue) -> PropertyValue {
+    match value {
+        PropertyValue::Flag(flag) => PropertyValue::Flag(!flag),
+        PropertyValue::Word(_) => PropertyValue::Word("RoomTemp".to_owned()),
+    }
+}
+
+/// The embedded default.
+pub struct Offline {
+    lexicon: Lexicon,
+}
+
+impl Offline {
+    /// With the lexicon that is built in.
+    pub fn new() -> Result<Self, LmError> {
+        Ok(Self { lexicon: Lexicon::embedded()? })
+    }
+
+    /// Adds a user's lexicon: the text of a TOML file, and its name for messages.
+    pub fn extend(&mut self, name: &str, text: &str) -> Result<(), LmError> {
+        self.lexicon.extend(name, text)
+    }
+
+    /// What it makes of an instruction.
+    pub fn read(&self, request: &Request) -> Answer {
+        let scene = Scene::new(&request.objects, &request.robots);
+        let unknown: Vec<&str> = scene.kinds().filter(|kind| !self.lexicon.knows_type(kind)).collect();
+        let reading = if unknown.is_empty() {
+            read(&request.instruction, &self.lexicon, &scene)
+        } else {
+            let mut lexicon = self.lexicon.clone();
+            for kind in unknown {
+                lexicon.add_type(kind);
+            }
+            read(&request.instruction, &lexicon, &scene)
+        };
+        reading.answer(request.assume)
+    }
+}
+
+impl LanguageModel for Offline {
+    fn name(&self) -> String {
+        "offline".to_owned()
+    }
+
+    fn decompose(&mut self, request: &Request, cancel: &AtomicBool) -> Result<Answer, LmError> {
+        if cancel.load(Ordering::Relaxed) {
+            return Err(LmError::Cancelled);
+        }
+        Ok(self.read(request))
+    }
+}
+
+/// A reading and what is wrong with it.
+struct Reading {
+    decomposition: Decomposition,
+    problems: Vec<String>,
+}
+
+impl Reading {
+    fn answer(self, assume: bool) -> Answer {
+        let Self { decomposition, problems } = self;
+        let empty = decomposition.subtasks.is_empty();
+        if !empty && (assume || decomposition.confidence >= THRESHOLD) {
+            let mut decomposition = decomposition;
+            decomposition.assumptions.extend(problems);
+            return Answer::Understood(decomposition);
+        }
+        let understood = decomposition.subtasks.iter().map(|subtask| subtask.text.clone()).collect();
+        let question = match problems.first() {
+            Some(problem) => format!("I cannot act on this yet: {problem}. What shall be done?"),
+            None if empty => "I found nothing to do in this. What shall be true in the end?".to_owned(),
+            None => "Is this what you mean?".to_owned(),
+        };
+        let readings = if empty { Vec::new() } else { vec![decomposition] };
+        Answer::Clarify(Clarification { question, understood, not_understood: problems, readings })
+    }
+}
+
+/// The best reading of an instruction: word by word, or as a situation where that explains more.
+fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
+    let cut = instruction
+        .char_indices()
+        .map(|(at, _)| at)
+        .find(|&at| at >= text::LONGEST_INSTRUCTION)
+        .unwrap_or(instruction.len());
+    let mut tokens = text::tokens(&instruction[..cut]);
+    let repairs = text::repair_spelling(&mut tokens, lexicon, scene);
+    let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
+    let mut reading = word_by_word(&words, lexicon, scene);
+    if reading.decomposition.subtasks.is_empty() || reading.decomposition.confidence < THRESHOLD {
+        let whole = as_situation(&words, instruction, lexicon, scene);
+        if let Some(whole) = whole.filter(|w| w.decomposition.confidence > reading.decomposition.confidence) {
+            reading = whole;
+        }
+    }
+    if cut < instruction.len() {
+        reading.problems.push("the instruction is too long; only its beginning was read".to_owned());
+        reading.decomposition.confidence *= 0.5;
+    }
+    reading.decomposition.assumptions.splice(0..0, repairs);
+    reading
+}
+
+fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
+    let mut parser = Parser::new(words, lexicon, scene);
+    let mut clauses = parser.clauses();
+    let passed_over = std::mem::take(&mut parser.passed_over);
+    share_objects(&mut clauses);
+    let mut discourse = Discourse::new(lexicon, scene);
+    let mut interpreter = Interpreter::new(&mut discourse, &clauses);
+    for index in 0..clauses.len() {
+        one_clause(&mut interpreter, index, &clauses, lexicon);
+    }
+    let facts = interpreter.facts;
+    for word in passed_over {
+        discourse.assume(format!("passed over \"{word}\""), 0.97);
+    }
+    finish(discourse, facts, &clauses)
+}
+
+/// Reads a clause word by word; as a situation when that fails, or when a strong one fits.
+fn one_clause<'a>(interpreter: &mut Interpreter<'_, 'a>, index: usize, clauses: &[Clause<'a>], lexicon: &Lexicon) {
+    let clause = &clauses[index];
+    let situations = lexicon.situations();
+    let words = situation::words_of(&clause.words);
+    if let Some((strong, _)) = situation::best(situations, &words, true)
+        && !clause.negated
+        && is_weak(clause, lexicon)
+        && interpreter.situation(index, strong)
+    {
+        interpreter.discourse.spoken.push(Spoken::default());
+        return;
+    }
+    let before = Snapshot::take(interpreter);
+    interpreter.clause(index, clause, clauses.get(index + 1));
+    let failed = interpreter.discourse.problems.len() > before.problems
+        || interpreter.facts.len() == before.facts.len() && !is_mere_step(clause);
+    if failed && let Some((vague, _)) = situation::best(situations, &words, false) {
+        let literal = Snapshot::take(interpreter);
+        before.restore(interpreter);
+        if interpreter.situation(index, vague) {
+            interpreter.discourse.spoken.push(Spoken::default());
+            return;
+        }
+        literal.restore(interpreter);
+    }
+    if failed && interpreter.facts.len() == before.facts.len() && !clause.negated && !is_mere_step(clause) {
+        interpreter.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.4);
+    }
+}
+
+/// Whether a clause says too little by itself to stand against a situation: no verb, a weak one with nothing
+/// it can be done to, or "everything".
+fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
+    let first = clause.verb_text.split(' ').next().unwrap_or_default();
+    let weak = inflect::bases(first).iter().any(|(base, _)| lexicon.is_small("weak", &[base]));
+    let plain = |phrase: &syntax::Phrase| !matches!(phrase.head, syntax::Head::Everything | syntax::Head::Room);
+    let places = clause.verbs.iter().any(|verb| verb.act == Act::Place)
+        && clause.objects.iter().any(plain)
+        && clause.places.iter().any(|place| matches!(place.phrase.head, syntax::Head::Noun(_)));
+    clause.verbs.is_empty() || weak && !places
+}
+
+/// Whether a clause may well have no goal of its own: going somewhere, taking what is put down later.
+fn is_mere_step(clause: &Clause<'_>) -> bool {
+    clause.negated
+        || clause.verbs.iter().any(|verb| {
+            matches!(verb.act, Act::Go | Act::Use | Act::Hold) || verb.act == Act::Place && clause.places.is_empty()
+        })
+}
+
+/// What an attempt at a clause may change.
+struct Snapshot {
+    facts: Vec<Fact>,
+    entities: Vec<mention::Entity>,
+    spoken: Vec<Spoken>,
+    assumptions: Vec<String>,
+    problem_list: Vec<String>,
+    problems: usize,
+    confidence: f64,
+}
+
+impl Snapshot {
+    fn take(interpreter: &Interpreter<'_, '_>) -> Self {
+        let discourse = &interpreter.discourse;
+        Self {
+            facts: interpreter.facts.clone(),
+            entities: discourse.entities.clone(),
+            spoken: discourse.spoken.clone(),
+            assumptions: discourse.assumptions.clone(),
+            problem_list: discourse.problems.clone(),
+            problems: discourse.problems.len(),
+            confidence: discourse.confidence,
+        }
+    }
+
+    fn restore(&self, interpreter: &mut Interpreter<'_, '_>) {
+        interpreter.facts.clone_from(&self.facts);
+        interpreter.discourse.entities.clone_from(&self.entities);
+        interpreter.discourse.spoken.clone_from(&self.spoken);
+        interpreter.discourse.assumptions.clone_from(&self.assumptions);
+        interpreter.discourse.problems.clone_from(&self.problem_list);
+        interpreter.discourse.confidence = self.confidence;
+    }
+}
+
+/// "wash and slice the apple": the first verb's object is said with the second.
+fn share_objects(clauses: &mut [Clause<'_>]) {
+    for i in 0..clauses.len().saturating_sub(1) {
+        let (front, back) = clauses.split_at_mut(i + 1);
+        let (first, second) = (&mut front[i], &mut back[0]);
+        let needs_object = first.verbs.iter().any(|verb| {
+            matches!(verb.act, Act::Set | Act::Heat | Act::Cook | Act::Chill | Act::Hold | Act::Examine | Act::Place)
+        });
+        let is_pronoun = |phrase: &syntax::Phrase| matches!(phrase.head, syntax::Head::Pronoun { .. });
+        let bare = first.objects.is_empty() && first.places.is_empty() && first.complement.is_empty();
+        let forward = first.objects.len() == 1 && is_pronoun(&first.objects[0]) && i == 0;
+        let said = !second.objects.is_empty() && !second.objects.iter().any(is_pronoun);
+        if needs_object && (bare && i == 0 || forward) && said {
+            let plural = second.objects.len() > 1;
+            first.objects.clone_from(&second.objects);
+            let head = syntax::Head::Pronoun { plural };
+            second.objects = vec![syntax::Phrase::bare(head, if plural { "them" } else { "it" })];
+        }
+    }
+}
+
+fn as_situation(words: &[String], instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Option<Reading> {
+    let words = situation::words_of(words);
+    let (vague, _) = situation::best(lexicon.situations(), &words, false)?;
+    let mut discourse = Discourse::new(lexicon, scene);
+    let clauses = [Clause {
+        text: instruction.trim().to_owned(),
+        verbs: Vec::new(),
+        verb_text: String::new(),
+        negated: false,
+        objects: Vec::new(),
+        places: Vec::new(),
+        complement: lexicon::Settings::new(),
+        back: false,
+        link: syntax::Link::And,
+        unknown: Vec::new(),
+        words: words.clone(),
+    }];
+    let mut interpreter = Interpreter::new(&mut discourse, &clauses);
+    if !interpreter.situation(0, vague) {
+        return None;
+    }
+    let facts = interpreter.facts;
+    Some(finish(discourse, facts, &clauses))
+}
+
+fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]) -> Reading {
+    let chilled: Vec<(usize, usize)> = facts
+        .iter()
+        .filter(|fact| {
+            matches!(&fact.change, Change::State(property, PropertyValue::Word(word))
+                if property == "temperature" && word == "Cold")
+                && clauses.get(fact.clause).is_some_and(|c| c.verbs.iter().any(|v| v.act == Act::Chill))
+        })
+        .map(|fact| (fact.clause, fact.entity))
+        .collect();
+    let subtasks = Emitter::new(&mut discourse, facts, &chilled).subtasks(clauses);
+    let confidence = if subtasks.is_empty() { 0.0 } else { discourse.confidence };
+    Reading {
+        decomposition: Decomposition { subtasks, assumptions: discourse.assumptions, confidence },
+        problems: discourse.problems,
+    }
+}

@@ -1,0 +1,531 @@
+//! Noun phrases: determiners, quantities, adjectives, heads, and what follows a head.
+
+use super::clause::Parser;
+use super::inflect;
+use super::lexicon::{LONGEST, Noun};
+use super::text::POSSESSIVE;
+use super::syntax::{Head, Phrase, Place, Quantity, is_determiner, is_function_word, preposition};
+
+/// Noun phrases within noun phrases go no deeper than this.
+const DEEPEST: usize = 4;
+
+/// What has been read before the head.
+struct Front {
+    phrase: Phrase,
+    quantity: Option<Quantity>,
+    sliced: bool,
+    plural: bool,
+}
+
+impl Parser<'_> {
+    /// One noun phrase at the position, or nothing with the position unchanged.
+    pub(super) fn phrase(&mut self, depth: usize) -> Option<Phrase> {
+        let start = self.position;
+        let mut front = Front {
+            phrase: Phrase::bare(Head::Room, ""),
+            quantity: None,
+            sliced: false,
+            plural: false,
+        };
+        let head = if depth > DEEPEST { None } else { self.head(&mut front) };
+        let Some(head) = head else {
+            self.position = start;
+            return None;
+        };
+        let Front { mut phrase, quantity, sliced, plural } = front;
+        phrase.head = head;
+        phrase.quantity = match (quantity, &phrase.head) {
+            (Some(Quantity::Plural), _) | (None, _) if plural => Quantity::Plural,
+            (Some(quantity), _) => quantity,
+            (None, Head::Everything) => Quantity::All,
+            (None, _) => Quantity::One,
+        };
+        if phrase.quantity == Quantity::Plural && phrase.definite {
+            phrase.quantity = Quantity::All;
+        }
+        if sliced {
+            phrase.states.insert("isSliced".to_owned(), super::yes());
+            if phrase.quantity == Quantity::All && quantity.is_none() {
+                phrase.quantity = Quantity::One;
+            }
+        }
+        self.after_head(&mut phrase, depth);
+        phrase.text = self.text_between(start, self.position);
+        Some(phrase)
+    }
+
+    /// Reads up to and with the head.
+    fn head(&mut self, front: &mut Front) -> Option<Head> {
+        let start = self.position;
+        while let Some(word) = self.peek() {
+            if word == "," && self.position > start && self.list_of_modifiers() {
+                self.position += 1;
+                continue;
+            }
+            if let Some(head) = self.pronoun(word, front) {
+                return Some(head);
+            }
+            if self.determiner(word, front) {
+                continue;
+            }
+            if let Some(object) = self.scene.named(word) {
+                self.position += 1;
+                return Some(Head::Named(object.name.clone()));
+            }
+            if let Some(number) = inflect::number(word) {
+                self.position += 1;
+                front.quantity = Some(if number == 1 { Quantity::One } else { Quantity::Count(number) });
+                continue;
+            }
+            if self.measure(front) {
+                continue;
+            }
+            if let Some((noun, plural, length)) = self.longest_noun()
+                && (length > 1 || !self.is_adjective_before_noun())
+            {
+                return Some(self.noun_head(noun, plural, length, front));
+            }
+            if self.adjective(&mut front.phrase) {
+                continue;
+            }
+            if self.lexicon.longest_small("slices", &self.rest()).is_some() || self.is_slices(word) {
+                self.position += 1;
+                front.plural |= word.ends_with('s');
+                front.sliced = true;
+                if self.longest_noun().is_some_and(|(noun, _, _)| self.has_affordance(&noun, "sliceable")) {
+                    continue;
+                }
+                return Some(Head::Slices);
+            }
+            if let Some(length) = self.lexicon.longest_small("modifiers", &self.rest())
+                && self.noun_follows(length)
+            {
+                self.position += length;
+                continue;
+            }
+            if let Some(length) = self.lexicon.longest_small("rooms", &self.rest()) {
+                self.position += length;
+                return Some(Head::Room);
+            }
+            return self.unknown_head(word, start);
+        }
+        None
+    }
+
+    /// "the leftmost, lower drawer": a comma between modifiers.
+    fn list_of_modifiers(&self) -> bool {
+        let before = self.position.checked_sub(1).and_then(|at| self.words.get(at));
+        let is_modifier = |word: &str| {
+            self.lexicon.is_small("modifiers", &[word]) || self.lexicon.adjective(&[word]).is_some()
+        };
+        before.is_some_and(|word| is_modifier(word))
+            && self.word_at(1).is_some_and(is_modifier)
+            && (2..5).any(|at| self.longest_noun_at(self.position + at).is_some())
+    }
+
+    /// A word nobody knows: a modifier when a noun follows at once, else the head.
+    fn unknown_head(&mut self, word: &str, start: usize) -> Option<Head> {
+        let liquid = ["coffee", "water", "wine"].contains(&word);
+        if liquid {
+            self.position += 1;
+            return Some(Head::Liquid(word.to_owned()));
+        }
+        if is_function_word(word) || ",.".contains(word) || self.lexicon.is_small("polite", &[word]) {
+            return None;
+        }
+        if !self.lexicon.verbs(word).is_empty() && self.position == start {
+            return None;
+        }
+        let known_modifier = self.lexicon.is_small("modifiers", &[word]);
+        self.position += 1;
+        if self.longest_noun().is_some() && (known_modifier || self.position > start) {
+            if !known_modifier {
+                self.passed_over.push(word.to_owned());
+            }
+            let mut front = Front {
+                phrase: Phrase::bare(Head::Room, ""),
+                quantity: None,
+                sliced: false,
+                plural: false,
+            };
+            return self.head(&mut front);
+        }
+        Some(Head::Unknown(word.to_owned()))
+    }
+
+    fn pronoun(&mut self, word: &str, front: &mut Front) -> Option<Head> {
+        let next = self.word_at(1);
+        let alone = next.is_none_or(|next| {
+            (is_function_word(next) && !is_determiner(next) && next != "of") || ",.".contains(next)
+        });
+        let head = match word {
+            "it" | "him" => Head::Pronoun { plural: false },
+            "them" | "they" => Head::Pronoun { plural: true },
+            "this" | "that" | "one" if alone && self.can_be_pronoun() => Head::Pronoun { plural: false },
+            "these" | "those" | "both" | "ones" | "all" if alone => Head::Pronoun { plural: true },
+            "everything" | "anything" | "stuff" => Head::Everything,
+            "things" | "items" | "objects"
+                if front.phrase.definite || front.quantity == Some(Quantity::All) =>
+            {
+                front.plural = true;
+                Head::Everything
+            }
+            "others" | "rest" if next != Some("of") => {
+                front.phrase.other = true;
+                Head::Everything
+            }
+            _ => return None,
+        };
+        self.position += 1;
+        Some(head)
+    }
+
+    /// `one` stands for a noun only when something was mentioned.
+    fn can_be_pronoun(&self) -> bool {
+        self.position > 0
+    }
+
+    fn determiner(&mut self, word: &str, front: &mut Front) -> bool {
+        match word {
+            "a" | "an" => {
+                front.phrase.indefinite = true;
+                front.quantity.get_or_insert(Quantity::One);
+                if let (Some("couple" | "pair"), Some("of")) = (self.word_at(1), self.word_at(2))
+                    && self.longest_noun_at(self.position + 1).is_none()
+                {
+                    front.quantity = Some(Quantity::Count(2));
+                    self.position += 2;
+                } else if self.word_at(1) == Some("few") {
+                    front.quantity = Some(Quantity::Plural);
+                    self.position += 1;
+                }
+            }
+            "the" | "this" | "that" | "these" | "those" | "my" | "your" | "our" | "his" | "her" | "their" | "its" => {
+                front.phrase.definite = true;
+            }
+            "all" | "every" | "each" | "whole" => front.quantity = Some(Quantity::All),
+            "both" => front.quantity = Some(Quantity::Count(2)),
+            "some" | "several" | "few" => front.quantity = Some(Quantity::Plural),
+            "any" | "either" => front.quantity = Some(Quantity::One),
+            "another" | "other" | "remaining" => front.phrase.other = true,
+            "rest" if self.word_at(1) == Some("of") => {
+                front.phrase.other = true;
+                front.quantity = Some(Quantity::All);
+            }
+            "of" if self.position > 0 => {}
+            _ => return false,
+        }
+        self.position += 1;
+        true
+    }
+
+    /// `a slice of`, `the top of`, `a head of`: passes over the measure and its "of".
+    fn measure(&mut self, front: &mut Front) -> bool {
+        let rest = self.rest();
+        // A longer noun wins: "box of tissues", "bar of soap".
+        if self.longest_noun().is_some_and(|(_, _, length)| length > 2) {
+            return false;
+        }
+        for length in [3, 2, 1] {
+            if rest.get(length) != Some(&"of") {
+                continue;
+            }
+            let words = &rest[..length];
+            let singular: Vec<String> = inflect::singulars(words[length - 1]);
+            let is_in = |list: &str| {
+                self.lexicon.is_small(list, words)
+                    || singular.iter().any(|s| length == 1 && self.lexicon.is_small(list, &[s.as_str()]))
+            };
+            let (slices, other) = (is_in("slices"), is_in("measures") || is_in("parts"));
+            if !(slices || other) || (slices && self.lexicon.is_small("parts", words) && !self.food_follows(length + 1)) {
+                if !other {
+                    continue;
+                }
+            } else if slices {
+                front.sliced |= self.food_follows(length + 1);
+            }
+            let plural = self.lexicon.noun(words).is_none() && words[length - 1].ends_with('s') && words[0] != "glass";
+            if plural && !self.lexicon.is_small("parts", words) && front.quantity.is_none() {
+                front.quantity = Some(Quantity::Plural);
+                front.plural = true;
+            }
+            if words == ["couple"] || words == ["pair"] {
+                front.quantity = Some(Quantity::Count(2));
+            }
+            self.position += length + 1;
+            return true;
+        }
+        false
+    }
+
+    /// Whether one of the next few words from an offset is something that can be sliced.
+    fn food_follows(&self, offset: usize) -> bool {
+        (offset..offset + 4).any(|at| {
+            self.longest_noun_at(self.position + at)
+                .is_some_and(|(noun, _, _)| self.has_affordance(&noun, "sliceable"))
+        })
+    }
+
+    pub(super) fn has_affordance(&self, noun: &Noun, affordance: &str) -> bool {
+        noun.kinds.iter().any(|kind| self.scene.affords(kind, affordance))
+    }
+
+    fn is_slices(&self, word: &str) -> bool {
+        inflect::singulars(word).iter().any(|s| self.lexicon.is_small("slices", &[s.as_str()]))
+            || self.lexicon.is_small("slices", &[word])
+    }
+
+    /// Takes the noun, and the nouns right behind it: of "dresser drawer" the last is the head.
+    fn noun_head(&mut self, noun: Noun, plural: bool, length: usize, front: &mut Front) -> Head {
+        self.position += length;
+        let (mut noun, mut plural) = (noun, plural);
+        while let Some(word) = self.peek() {
+            if word == POSSESSIVE {
+                self.position += 1;
+                if self.noun_follows(0) {
+                    return self.head(front).unwrap_or(Head::Noun(noun));
+                }
+                plural = true;
+                continue;
+            }
+            if self.is_slices(word) && self.has_affordance(&noun, "sliceable") {
+                front.sliced = true;
+                plural |= word.ends_with('s');
+                self.position += 1;
+                continue;
+            }
+            let Some((next, next_plural, next_length)) = self.longest_noun() else { break };
+            if self.verb_reads_better(next_length) {
+                break;
+            }
+            (noun, plural) = (next, next_plural);
+            self.position += next_length;
+        }
+        front.plural |= plural;
+        Head::Noun(noun)
+    }
+
+    /// Whether the next word is rather the verb of a new clause ("... the cup toast the bread").
+    fn verb_reads_better(&self, length: usize) -> bool {
+        let Some(word) = self.peek() else { return false };
+        length == 1
+            && !self.lexicon.verbs(word).is_empty()
+            && self.word_at(1).is_some_and(|next| is_determiner(next) || next == "it")
+    }
+
+    /// An adjective that is also a noun or verb counts as an adjective when a noun follows.
+    fn is_adjective_before_noun(&self) -> bool {
+        let rest = self.rest();
+        let state = (1..=3.min(rest.len())).rev().find(|&n| self.lexicon.adjective(&rest[..n]).is_some());
+        state.is_some_and(|n| self.longest_noun_at(self.position + n).is_some())
+    }
+
+    fn adjective(&mut self, phrase: &mut Phrase) -> bool {
+        let rest = self.rest();
+        for length in (1..=3.min(rest.len())).rev() {
+            let Some(adjective) = self.lexicon.adjective(&rest[..length]) else { continue };
+            // "on" and "out" are adjectives only behind "is".
+            if preposition(&rest[..length]).is_some() || rest[0] == "out" {
+                continue;
+            }
+            let target = if adjective.selects { &mut phrase.selects } else { &mut phrase.states };
+            target.extend(adjective.set.clone());
+            self.position += length;
+            if self.peek() == Some("and") && self.rest().get(1).is_some_and(|w| self.lexicon.adjective(&[w]).is_some()) {
+                self.position += 1;
+            }
+            return true;
+        }
+        false
+    }
+
+    /// Whether a noun, or adjectives and a noun, follow behind `offset` words.
+    fn noun_follows(&self, offset: usize) -> bool {
+        (offset..offset + 4)
+            .take_while(|&at| {
+                self.word_at(at).is_some_and(|word| {
+                    preposition(&[word]).is_none() && !is_determiner(word) && !["and", ",", "."].contains(&word)
+                })
+            })
+            .any(|at| {
+                self.longest_noun_at(self.position + at).is_some()
+                    || self.word_at(at).is_some_and(|word| self.is_slices(word))
+            })
+    }
+
+    /// What follows the head: contents, places, exceptions.
+    fn after_head(&mut self, phrase: &mut Phrase, depth: usize) {
+        loop {
+            let start = self.position;
+            match self.peek() {
+                Some("of") => {
+                    self.position += 1;
+                    if let Some(of) = self.phrase(depth + 1) {
+                        merge_of(phrase, of);
+                    }
+                }
+                Some(",")
+                    if matches!(self.word_at(1), Some("containing" | "holding"))
+                        || self.word_at(1) == Some("with") && self.is_vessel(phrase) =>
+                {
+                    self.position += 2;
+                    phrase.with.extend(self.phrases(depth + 1));
+                    let _ = self.skip_back_reference();
+                }
+                Some("containing" | "holding") => {
+                    self.position += 1;
+                    phrase.with.extend(self.phrases(depth + 1));
+                }
+                Some("filled" | "full") if matches!(self.word_at(1), Some("with" | "of")) => {
+                    self.position += 2;
+                    phrase.with.extend(self.phrases(depth + 1));
+                }
+                Some("with") if matches!(&phrase.head, Head::Noun(_) | Head::Named(_)) => {
+                    self.position += 1;
+                    let with = self.phrases(depth + 1);
+                    if with.is_empty() {
+                        self.position = start;
+                        return;
+                    }
+                    phrase.with.extend(with);
+                    let _ = self.skip_back_reference();
+                }
+                Some("that" | "which" | "thats") if matches!(self.word_at(1), Some("is" | "are" | "was" | "were")) => {
+                    self.position += 2;
+                    if !self.adjective(phrase) && preposition(&self.rest()).is_none() {
+                        self.position = start;
+                        return;
+                    }
+                    self.where_it_is(phrase, depth);
+                }
+                Some("that" | "which") if matches!(self.word_at(1), Some("has" | "contains" | "have" | "holds")) => {
+                    self.position += 2;
+                    phrase.with.extend(self.phrases(depth + 1));
+                    let _ = self.skip_back_reference();
+                }
+                Some("sitting" | "located" | "lying" | "laying" | "standing" | "resting" | "placed" | "found")
+                    if self.position + 1 < self.words.len() && preposition(&self.rest()[1..]).is_some() =>
+                {
+                    self.position += 1;
+                    self.where_it_is(phrase, depth);
+                }
+                Some("except" | "excluding" | "but")
+                    if self.peek() != Some("but") || phrase.quantity == Quantity::All =>
+                {
+                    self.position += 1;
+                    if matches!(self.peek(), Some("for" | "from")) {
+                        self.position += 1;
+                    }
+                    phrase.except.extend(self.phrases(depth + 1));
+                }
+                Some("other") if self.word_at(1) == Some("than") => {
+                    self.position += 2;
+                    phrase.except.extend(self.phrases(depth + 1));
+                }
+                _ => return,
+            }
+            if self.position == start {
+                return;
+            }
+        }
+    }
+
+    fn is_vessel(&self, phrase: &Phrase) -> bool {
+        matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
+            self.scene.affords(kind, "receptacle") && self.scene.affords(kind, "pickupable")
+        }))
+    }
+
+    /// `in it`, `on it`, `inside`: says again where the contents are.
+    pub(super) fn skip_back_reference(&mut self) -> bool {
+        let start = self.position;
+        if let Some((_, length)) = preposition(&self.rest()) {
+            match self.word_at(length) {
+                Some("it" | "them") => self.position += length + 1,
+                next if next.is_none_or(|w| preposition(&[w]).is_some()) && self.peek() == Some("inside") => {
+                    self.position += length;
+                }
+                _ => {}
+            }
+        }
+        self.position > start
+    }
+
+    fn where_it_is(&mut self, phrase: &mut Phrase, depth: usize) {
+        if let Some((relation, length)) = preposition(&self.rest()) {
+            let start = self.position;
+            self.position += length;
+            match self.phrase(depth + 1) {
+                Some(at) => phrase.at.push(Place::new(relation, "", at)),
+                None => self.position = start,
+            }
+        }
+    }
+
+    /// Noun phrases joined by "and" and commas, up to the next clause.
+    pub(super) fn phrases(&mut self, depth: usize) -> Vec<Phrase> {
+        let mut found = Vec::new();
+        let Some(first) = self.phrase(depth) else { return found };
+        found.push(first);
+        loop {
+            let start = self.position;
+            let joined = self.skip_joins();
+            if !joined || self.clause_starts_here(false) {
+                self.position = start;
+                return found;
+            }
+            match self.phrase(depth) {
+                Some(phrase) => found.push(phrase),
+                None => {
+                    self.position = start;
+                    return found;
+                }
+            }
+        }
+    }
+
+    /// Passes over "and", commas and the like between noun phrases.
+    pub(super) fn skip_joins(&mut self) -> bool {
+        let start = self.position;
+        while let Some(word) = self.peek() {
+            match word {
+                "," | "and" | "plus" | "or" => self.position += 1,
+                "as" if self.rest().starts_with(&["as", "well", "as"]) => self.position += 3,
+                "along" | "together" if self.word_at(1) == Some("with") => self.position += 2,
+                "then" | "also" if self.position > start && !self.clause_starts_here(false) => self.position += 1,
+                _ => break,
+            }
+        }
+        self.position > start
+    }
+
+    pub(super) fn longest_noun(&self) -> Option<(Noun, bool, usize)> {
+        self.longest_noun_at(self.position)
+    }
+
+    /// The longest noun at a position.
+    pub(super) fn longest_noun_at(&self, position: usize) -> Option<(Noun, bool, usize)> {
+        let rest: Vec<&str> = self.words.get(position..)?.iter().take(LONGEST).map(String::as_str).collect();
+        let usable = rest.iter().position(|w| *w == "," || *w == "." || *w == "and").unwrap_or(rest.len());
+        (1..=usable).rev().find_map(|length| {
+            self.lexicon.noun(&rest[..length]).map(|(noun, plural)| (noun.clone(), plural, length))
+        })
+    }
+}
+
+/// "N1 of N2": the same thing said twice ("the light of the lamp") is N2; otherwise N2 is what N1 holds, or
+/// only says which N1 is meant.
+fn merge_of(phrase: &mut Phrase, of: Phrase) {
+    let overlap = match (&phrase.head, &of.head) {
+        (Head::Noun(a), Head::Noun(b)) => a.kinds.iter().any(|kind| b.kinds.contains(kind)),
+        _ => false,
+    };
+    if overlap {
+        phrase.head = of.head;
+    } else if matches!(phrase.head, Head::Slices) {
+        phrase.head = of.head;
+        phrase.quantity = if phrase.quantity == Quantity::All { Quantity::One } else { phrase.quantity };
+    } else {
+        phrase.with.push(of);
+    }
+}

@@ -1,0 +1,133 @@
+//! The scene as the parser needs it: objects by type, what they afford, what they accept.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use lamma_domains::goal::PropertyValue;
+
+use super::lexicon::{Settings, split_camel_case};
+use crate::{ObjectView, RobotView};
+
+/// An index over the objects of a request.
+pub struct Scene<'a> {
+    objects: BTreeMap<&'a str, &'a ObjectView>,
+    kinds: BTreeMap<&'a str, Vec<&'a ObjectView>>,
+    skills: BTreeSet<&'a str>,
+    words: BTreeSet<String>,
+}
+
+impl<'a> Scene<'a> {
+    /// Indexes the objects and the team's skills.
+    pub fn new(objects: &'a [ObjectView], robots: &'a [RobotView]) -> Self {
+        let mut kinds: BTreeMap<&str, Vec<&ObjectView>> = BTreeMap::new();
+        for object in objects {
+            kinds.entry(&object.kind).or_default().push(object);
+        }
+        for list in kinds.values_mut() {
+            list.sort_by(|a, b| natural(&a.name).cmp(&natural(&b.name)));
+        }
+        let mut words = BTreeSet::new();
+        for kind in kinds.keys() {
+            let phrase = split_camel_case(kind);
+            words.insert(phrase.replace(' ', ""));
+            words.extend(phrase.split(' ').map(str::to_owned));
+        }
+        Self {
+            objects: objects.iter().map(|object| (object.name.as_str(), object)).collect(),
+            kinds,
+            skills: robots.iter().flat_map(|robot| robot.skills.iter().map(String::as_str)).collect(),
+            words,
+        }
+    }
+
+    /// The objects of a type, in the order of their numbers.
+    pub fn of_kind(&self, kind: &str) -> &[&'a ObjectView] {
+        self.kinds.get(kind).map(Vec::as_slice).unwrap_or_default()
+    }
+
+    /// Whether there is an object of the type.
+    pub fn has(&self, kind: &str) -> bool {
+        self.kinds.contains_key(kind)
+    }
+
+    /// The types there are.
+    pub fn kinds(&self) -> impl Iterator<Item = &'a str> + '_ {
+        self.kinds.keys().copied()
+    }
+
+    /// The object of a name, whatever its case.
+    pub fn named(&self, name: &str) -> Option<&'a ObjectView> {
+        self.objects.get(name).copied().or_else(|| {
+            self.objects.values().find(|object| object.name.eq_ignore_ascii_case(name)).copied()
+        })
+    }
+
+    /// Whether objects of a type afford something.
+    pub fn affords(&self, kind: &str, affordance: &str) -> bool {
+        self.of_kind(kind).iter().any(|object| object.affordances.iter().any(|a| a == affordance))
+    }
+
+    /// Whether a receptacle type takes a type. Where a scene states nothing of a receptacle, it may.
+    pub fn accepts(&self, receptacle: &str, kind: &str) -> bool {
+        let sliced = format!("{kind}Sliced");
+        self.of_kind(receptacle).iter().any(|object| {
+            object.affordances.iter().any(|a| a == "receptacle")
+                && (object.accepts.is_empty()
+                    || object.accepts.iter().any(|accepted| accepted == kind || *accepted == sliced))
+        })
+    }
+
+    /// Whether a receptacle type is known to take a type.
+    pub fn surely_accepts(&self, receptacle: &str, kind: &str) -> bool {
+        self.accepts(receptacle, kind) && self.of_kind(receptacle).iter().any(|object| !object.accepts.is_empty())
+    }
+
+    /// Whether one of the team has the skill; a team of no stated skills is taken to have all.
+    pub fn can(&self, skill: &str) -> bool {
+        self.skills.is_empty() || self.skills.contains(skill)
+    }
+
+    /// The words of the types' names.
+    pub fn vocabulary(&self) -> impl Iterator<Item = &str> {
+        self.words.iter().map(String::as_str)
+    }
+
+    /// Whether an object lies, directly or not, in or on an object that satisfies a condition.
+    pub fn lies_in(&self, object: &ObjectView, condition: &dyn Fn(&ObjectView) -> bool) -> bool {
+        let mut frontier: Vec<&str> = object.parents.iter().map(String::as_str).collect();
+        let mut seen = BTreeSet::new();
+        while let Some(name) = frontier.pop() {
+            if !seen.insert(name) {
+                continue;
+            }
+            if let Some(parent) = self.objects.get(name) {
+                if condition(parent) {
+                    return true;
+                }
+                frontier.extend(parent.parents.iter().map(String::as_str));
+            }
+        }
+        false
+    }
+}
+
+/// Whether an object is in the states now, as far as its flags say.
+pub fn is_in_state(object: &ObjectView, states: &Settings) -> bool {
+    states.iter().all(|(property, value)| {
+        let holds = object.states.iter().any(|state| state == property);
+        match value {
+            PropertyValue::Flag(flag) => holds == *flag,
+            PropertyValue::Word(word) => {
+                object.states.iter().any(|state| {
+                    state == word || state.strip_prefix(property.as_str()).is_some_and(|rest| rest.ends_with(word.as_str()))
+                })
+            }
+        }
+    })
+}
+
+/// A name with its number as a number: `Book_10` comes after `Book_2`.
+fn natural(name: &str) -> (&str, u64) {
+    let digits = name.len() - name.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    let (front, number) = name.split_at(name.len() - digits);
+    (front, number.parse().unwrap_or(0))
+}

@@ -1,0 +1,186 @@
+//! Vague commands: situations as data, each a set of trigger words and goal templates over object types.
+//!
+//! A template names types; what the scene has of them is what the goal is about, so one situation fits any
+//! room. The situation whose triggers explain most of the words is taken.
+
+use serde::Deserialize;
+
+use super::effect::{Change, Interpreter};
+use super::inflect;
+use super::lexicon::{Settings, squash};
+use super::mention::Which;
+
+/// A situation.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Situation {
+    /// For the record.
+    pub name: String,
+    /// Sets of words that must all be there; `a/b` is either, `!a` must not be there.
+    pub when: Vec<String>,
+    /// What is brought about.
+    pub goal: Vec<Template>,
+    /// It is taken even when the words could be read word by word.
+    #[serde(default)]
+    pub strong: bool,
+}
+
+/// A goal over whatever the scene has of some types.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Template {
+    /// Every object of each of these types.
+    #[serde(default)]
+    pub each: Vec<String>,
+    /// One object of the first of these types that is there.
+    #[serde(default)]
+    pub one: Vec<String>,
+    /// One object of each of these types that is there.
+    #[serde(default)]
+    pub one_of_each: Vec<String>,
+    /// Its states.
+    #[serde(default)]
+    pub is: Settings,
+    /// The receptacle it ends in: the first of these types that is there and takes it.
+    #[serde(default)]
+    pub into: Vec<String>,
+    /// It ends where such things are kept.
+    #[serde(default)]
+    pub home: bool,
+    /// It ends in a hand.
+    #[serde(default)]
+    pub held: bool,
+    /// The situation makes no sense without it.
+    #[serde(default)]
+    pub needed: bool,
+    /// Left out when an earlier template of the situation found something.
+    #[serde(default)]
+    pub otherwise: bool,
+}
+
+impl Situation {
+    /// The trigger words, for spelling.
+    pub fn vocabulary(&self) -> Vec<String> {
+        let words = self.when.iter().flat_map(|pattern| pattern.split([' ', '/', '!']));
+        words.filter(|word| !word.is_empty()).map(str::to_owned).collect()
+    }
+
+    /// How many words a trigger explains, if one fits.
+    pub fn fits(&self, words: &[String]) -> Option<usize> {
+        self.when.iter().filter_map(|pattern| pattern_fits(pattern, words)).max()
+    }
+}
+
+fn pattern_fits(pattern: &str, words: &[String]) -> Option<usize> {
+    let mut explained = 0;
+    for part in pattern.split_whitespace() {
+        match part.strip_prefix('!') {
+            Some(absent) if absent.split('/').any(|option| has_word(words, option)) => return None,
+            Some(_) => {}
+            None if part.split('/').any(|option| has_word(words, option)) => explained += 1,
+            None => return None,
+        }
+    }
+    (explained > 0).then_some(explained)
+}
+
+fn has_word(words: &[String], wanted: &str) -> bool {
+    words.iter().any(|word| {
+        word == wanted
+            || inflect::singulars(word).iter().any(|s| s == wanted)
+            || inflect::bases(word).iter().any(|(base, _)| base == wanted)
+    })
+}
+
+/// The situation that explains most of the words.
+pub fn best<'s>(situations: &'s [Situation], words: &[String], strong_only: bool) -> Option<(&'s Situation, usize)> {
+    let mut best: Option<(&Situation, usize)> = None;
+    for situation in situations.iter().filter(|situation| situation.strong || !strong_only) {
+        if let Some(score) = situation.fits(words)
+            && best.is_none_or(|(_, found)| score > found)
+        {
+            best = Some((situation, score));
+        }
+    }
+    best
+}
+
+impl Interpreter<'_, '_> {
+    /// Adds the facts of a situation; false when the scene has nothing for it.
+    pub fn situation(&mut self, index: usize, situation: &Situation) -> bool {
+        self.at_clause(index);
+        let before = self.facts.len();
+        let mut meant = Vec::new();
+        for template in &situation.goal {
+            if template.otherwise && self.facts.len() > before {
+                continue;
+            }
+            let found = self.instances(template);
+            if found.is_empty() && template.needed {
+                self.facts.truncate(before);
+                return false;
+            }
+            for entity in found {
+                let kind = self.discourse.entities[entity].kind().to_owned();
+                if self.bring_about(entity, template) && !meant.contains(&kind) {
+                    meant.push(kind);
+                }
+            }
+        }
+        if self.facts.len() == before {
+            return false;
+        }
+        self.discourse.assume(format!("took it as \"{}\": {}", situation.name, meant.join(", ")), 0.75);
+        true
+    }
+
+    fn instances(&mut self, template: &Template) -> Vec<usize> {
+        let scene = self.discourse.scene;
+        let mut found = Vec::new();
+        for kind in template.each.iter().filter(|kind| scene.has(kind)) {
+            let which = if scene.of_kind(kind).len() > 1 { Which::All } else { Which::Any };
+            found.push(self.discourse.entity(kind, which));
+        }
+        let one = template.one.iter().find(|kind| scene.has(kind));
+        for kind in one.into_iter().chain(template.one_of_each.iter().filter(|kind| scene.has(kind))) {
+            found.push(self.discourse.entity(kind, Which::Any));
+        }
+        found
+    }
+
+    /// Adds what a template says of one entity; false when that is not possible here.
+    fn bring_about(&mut self, entity: usize, template: &Template) -> bool {
+        let scene = self.discourse.scene;
+        let kind = self.discourse.entities[entity].kind().to_owned();
+        let before = self.facts.len();
+        for (property, value) in &template.is {
+            let possible = match property.as_str() {
+                "isOpen" => scene.affords(&kind, "openable"),
+                "isToggled" => scene.affords(&kind, "toggleable"),
+                "isSliced" => scene.affords(&kind, "sliceable"),
+                _ => true,
+            };
+            if possible {
+                self.add(entity, Change::State(property.clone(), value.clone()));
+            }
+        }
+        let home = if template.home {
+            self.discourse.lexicon.homes(&kind).find(|home| scene.accepts(home, &kind)).map(str::to_owned)
+        } else {
+            template.into.iter().find(|place| scene.accepts(place, &kind)).cloned()
+        };
+        if let Some(home) = home {
+            let place = self.discourse.place_of_kind(&home);
+            self.add(entity, Change::Inside(place));
+        }
+        if template.held {
+            self.add(entity, Change::Held);
+        }
+        self.facts.len() > before
+    }
+}
+
+/// The words of a text that are worth matching.
+pub fn words_of(words: &[String]) -> Vec<String> {
+    words.iter().map(|word| squash(word)).filter(|word| !word.is_empty()).collect()
+}

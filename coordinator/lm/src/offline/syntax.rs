@@ -1,0 +1,292 @@
+//! What a sentence is made of: clauses, noun phrases, and the closed classes of English words.
+
+use super::lexicon::{Noun, Settings, Verb};
+
+/// How much of what a noun names is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// One.
+    One,
+    /// So many.
+    Count(usize),
+    /// Every one.
+    All,
+    /// A plural with no number.
+    Plural,
+}
+
+/// What a noun phrase is about.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Head {
+    /// A noun of the lexicon, and whether it was a plural.
+    Noun(Noun),
+    /// One object of the scene by its name.
+    Named(String),
+    /// `it`, `them`
+    Pronoun {
+        /// `them`
+        plural: bool,
+    },
+    /// `the slices`
+    Slices,
+    /// `everything`
+    Everything,
+    /// `water`
+    Liquid(String),
+    /// A room or a side of one: no object.
+    Room,
+    /// A word nobody knows.
+    Unknown(String),
+}
+
+/// A noun phrase.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Phrase {
+    /// In words.
+    pub text: String,
+    /// What it is about.
+    pub head: Head,
+    /// How much of it.
+    pub quantity: Quantity,
+    /// `the`, `that`, `my`
+    pub definite: bool,
+    /// `a`
+    pub indefinite: bool,
+    /// `another`, `the other`
+    pub other: bool,
+    /// States asked for.
+    pub states: Settings,
+    /// States that pick it out.
+    pub selects: Settings,
+    /// What it contains: `with a spoon in it`.
+    pub with: Vec<Phrase>,
+    /// Where it is: `on the desk`.
+    pub at: Vec<Place>,
+    /// `except the lamp`
+    pub except: Vec<Phrase>,
+}
+
+impl Phrase {
+    /// A phrase of nothing but its head.
+    pub fn bare(head: Head, text: &str) -> Self {
+        Self {
+            text: text.to_owned(),
+            head,
+            quantity: Quantity::One,
+            definite: false,
+            indefinite: false,
+            other: false,
+            states: Settings::new(),
+            selects: Settings::new(),
+            with: Vec::new(),
+            at: Vec::new(),
+            except: Vec::new(),
+        }
+    }
+}
+
+/// What a preposition says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// `in`, `on`, `at`: where something is or goes.
+    In,
+    /// `to`, `into`, `onto`: where something goes.
+    To,
+    /// `from`, `out of`, `off`: where something was.
+    From,
+    /// `next to`, `under`: near something.
+    Near,
+    /// `with`, `using`: an instrument, or what is inside.
+    With,
+    /// `for`: of no consequence for the goal.
+    For,
+}
+
+/// A prepositional phrase.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// What the preposition says.
+    pub relation: Relation,
+    /// What of.
+    pub phrase: Phrase,
+    /// Whether it is `under` or the like.
+    pub under: bool,
+    /// Whether it is `at`: there, if nothing else is said.
+    pub there: bool,
+}
+
+impl Place {
+    /// A place by its preposition.
+    pub fn new(relation: Relation, preposition: &str, phrase: Phrase) -> Self {
+        let under = matches!(preposition, "under" | "underneath" | "below" | "beneath");
+        Self { relation, phrase, under, there: preposition == "at" }
+    }
+}
+
+/// How a clause follows the one before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Link {
+    /// In no stated order.
+    And,
+    /// After it.
+    Then,
+    /// At the same time.
+    While,
+}
+
+/// A clause.
+#[derive(Clone, Debug)]
+pub struct Clause<'a> {
+    /// In words.
+    pub text: String,
+    /// What the verb may mean, with the most particles first; empty when there is no verb known.
+    pub verbs: Vec<&'a Verb>,
+    /// The verb as written.
+    pub verb_text: String,
+    /// `do not`, `without`
+    pub negated: bool,
+    /// What it is done to.
+    pub objects: Vec<Phrase>,
+    /// Where, with what.
+    pub places: Vec<Place>,
+    /// `keep it closed`
+    pub complement: Settings,
+    /// `back`: to where it was.
+    pub back: bool,
+    /// How it follows the clause before it.
+    pub link: Link,
+    /// Words that no rule took.
+    pub unknown: Vec<String>,
+    /// The words, for situations.
+    pub words: Vec<String>,
+}
+
+/// Prepositions, the longer first.
+const PREPOSITIONS: [(&str, Relation); 82] = [
+    ("to the left side of", Relation::Near),
+    ("to the right side of", Relation::Near),
+    ("to the left of", Relation::Near),
+    ("to the right of", Relation::Near),
+    ("on the left of", Relation::Near),
+    ("on the right of", Relation::Near),
+    ("at the left of", Relation::Near),
+    ("at the right of", Relation::Near),
+    ("to the side of", Relation::Near),
+    ("with the help of", Relation::With),
+    ("by the light of", Relation::With),
+    ("in the light of", Relation::With),
+    ("under the light of", Relation::With),
+    ("with the light of", Relation::With),
+    ("in the direction of", Relation::Near),
+    ("in front of", Relation::Near),
+    ("in back of", Relation::Near),
+    ("on top of", Relation::In),
+    ("to the top of", Relation::To),
+    ("in between", Relation::Near),
+    ("left of", Relation::Near),
+    ("right of", Relation::Near),
+    ("next to", Relation::Near),
+    ("close to", Relation::Near),
+    ("closest to", Relation::Near),
+    ("nearest to", Relation::Near),
+    ("adjacent to", Relation::Near),
+    ("across from", Relation::Near),
+    ("opposite of", Relation::Near),
+    ("facing", Relation::Near),
+    ("out of", Relation::From),
+    ("away from", Relation::From),
+    ("off of", Relation::From),
+    ("inside of", Relation::In),
+    ("back to", Relation::To),
+    ("back into", Relation::To),
+    ("back onto", Relation::To),
+    ("back in", Relation::To),
+    ("back on", Relation::To),
+    ("over to", Relation::To),
+    ("on to", Relation::To),
+    ("in to", Relation::To),
+    ("over at", Relation::In),
+    ("down on", Relation::In),
+    ("along with", Relation::With),
+    ("together with", Relation::With),
+    ("by means of", Relation::With),
+    ("beside", Relation::Near),
+    ("besides", Relation::Near),
+    ("beneath", Relation::Near),
+    ("underneath", Relation::Near),
+    ("under", Relation::Near),
+    ("below", Relation::Near),
+    ("above", Relation::Near),
+    ("behind", Relation::Near),
+    ("between", Relation::Near),
+    ("among", Relation::Near),
+    ("against", Relation::Near),
+    ("around", Relation::Near),
+    ("near", Relation::Near),
+    ("nearest", Relation::Near),
+    ("by", Relation::Near),
+    ("beyond", Relation::Near),
+    ("into", Relation::To),
+    ("onto", Relation::To),
+    ("to", Relation::To),
+    ("towards", Relation::To),
+    ("toward", Relation::To),
+    ("inside", Relation::In),
+    ("within", Relation::In),
+    ("upon", Relation::In),
+    ("atop", Relation::In),
+    ("over", Relation::In),
+    ("in", Relation::In),
+    ("on", Relation::In),
+    ("at", Relation::Near),
+    ("from", Relation::From),
+    ("off", Relation::From),
+    ("with", Relation::With),
+    ("using", Relation::With),
+    ("via", Relation::With),
+    ("for", Relation::For),
+];
+
+/// The preposition at the start of the words: its relation and length.
+pub fn preposition(words: &[&str]) -> Option<(Relation, usize)> {
+    let first = words.first()?;
+    PREPOSITIONS.iter().find_map(|(phrase, relation)| {
+        let mut parts = phrase.split(' ');
+        if parts.next() != Some(first) {
+            return None;
+        }
+        let length = phrase.split(' ').count();
+        let fits = words.len() >= length && phrase.split(' ').zip(words).all(|(a, b)| a == *b);
+        fits.then_some((*relation, length))
+    })
+}
+
+const FUNCTION_WORDS: [&str; 98] = [
+    "a", "an", "the", "this", "that", "these", "those", "my", "your", "our", "his", "her", "their", "its",
+    "it", "them", "they", "him", "me", "you", "we", "us", "i", "and", "or", "but", "then", "if", "so", "when",
+    "once", "until", "while", "before", "after", "as", "is", "are", "be", "was", "were", "been", "being", "am",
+    "do", "does", "did", "dont", "not", "no", "never", "all", "both", "each", "every", "any", "some", "another",
+    "other", "others", "rest", "of", "except", "than", "either", "one", "ones", "which", "who", "what", "where",
+    "there", "here", "have", "has", "had", "can", "could", "will", "would", "shall", "should", "may", "might",
+    "must", "let", "without", "everything", "anything", "nothing", "something", "thing", "things", "few",
+    "several", "couple", "containing", "'s",
+];
+
+/// Whether a word belongs to a closed class.
+pub fn is_function_word(word: &str) -> bool {
+    FUNCTION_WORDS.contains(&word) || preposition(&[word]).is_some() || is_filler(word)
+}
+
+fn is_filler(word: &str) -> bool {
+    ["back", "away", "out", "down", "up", "also", "together", "holding", "placed", "sitting", "located"]
+        .contains(&word)
+}
+
+/// Words that open a noun phrase.
+pub fn is_determiner(word: &str) -> bool {
+    [
+        "a", "an", "the", "this", "that", "these", "those", "my", "your", "our", "his", "her", "their", "its",
+        "all", "both", "each", "every", "any", "some", "another", "other", "several", "few",
+    ]
+    .contains(&word)
+}

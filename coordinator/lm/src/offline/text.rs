@@ -1,0 +1,181 @@
+//! From characters to words: case, punctuation, contractions, and spelling repaired against what the scene
+//! and the lexicon know.
+
+use super::lexicon::Lexicon;
+use super::scene::Scene;
+
+/// The longest instruction read, in bytes.
+pub const LONGEST_INSTRUCTION: usize = 4096;
+
+/// The token behind a noun that ends in "'s".
+pub const POSSESSIVE: &str = "'s";
+
+/// Words whose "'s" is "is" or "us".
+const CONTRACTED: [&str; 9] = ["it", "that", "there", "let", "what", "here", "he", "she", "who"];
+
+/// A word or a mark.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Token {
+    /// In lower case, repaired.
+    pub text: String,
+    /// As it was typed.
+    pub typed: String,
+}
+
+/// Splits an instruction into words and the marks that separate clauses.
+pub fn tokens(instruction: &str) -> Vec<Token> {
+    let mut found = Vec::new();
+    let mut word = String::new();
+    let flush = |word: &mut String, found: &mut Vec<Token>| {
+        if word.is_empty() {
+            return;
+        }
+        let typed = std::mem::take(word);
+        let lower = typed.to_lowercase();
+        let whole = lower.trim_matches('\'');
+        let text = whole.trim_end_matches("'s").replace('\'', "");
+        let possessive = whole.ends_with("'s") && !CONTRACTED.contains(&text.as_str());
+        if !text.is_empty() {
+            found.push(Token { text, typed });
+        }
+        if possessive {
+            found.push(Token { text: POSSESSIVE.to_owned(), typed: String::new() });
+        }
+    };
+    for c in instruction.chars() {
+        match c {
+            c if c.is_alphanumeric() || c == '_' => word.push(c),
+            '\'' | '\u{2019}' | '`' => word.push('\''),
+            ',' | ';' | '.' | '!' | '?' | ':' | '\n' => {
+                flush(&mut word, &mut found);
+                let mark = match c {
+                    ',' => ",",
+                    _ => ".",
+                };
+                found.push(Token { text: mark.to_owned(), typed: c.to_string() });
+            }
+            '&' | '+' => {
+                flush(&mut word, &mut found);
+                found.push(Token { text: "and".to_owned(), typed: c.to_string() });
+            }
+            _ => flush(&mut word, &mut found),
+        }
+    }
+    flush(&mut word, &mut found);
+    found
+}
+
+/// Repairs words that neither the lexicon nor the scene knows, where exactly one known word is near.
+/// Returns what was repaired.
+pub fn repair_spelling(tokens: &mut [Token], lexicon: &Lexicon, scene: &Scene) -> Vec<String> {
+    let mut repairs = Vec::new();
+    for token in tokens {
+        let word = token.text.clone();
+        if word.len() < 4 || !word.chars().all(char::is_alphabetic) || is_known(&word, lexicon, scene) {
+            continue;
+        }
+        let in_scene = nearest(&word, scene.vocabulary());
+        let in_lexicon = nearest(&word, lexicon.vocabulary().iter().map(String::as_str));
+        let best = match (in_scene, in_lexicon) {
+            (Some(scene), Some(lexicon)) if scene.1 <= lexicon.1 => Some(scene),
+            (_, Some(lexicon)) => Some(lexicon),
+            (scene, None) => scene,
+        };
+        if let Some((repaired, _)) = best {
+            repairs.push(format!("read \"{}\" as \"{repaired}\"", token.typed));
+            token.text = repaired;
+        }
+    }
+    repairs
+}
+
+/// Whether a word needs no repair.
+pub fn is_known(word: &str, lexicon: &Lexicon, scene: &Scene) -> bool {
+    super::syntax::is_function_word(word)
+        || lexicon.vocabulary().contains(word)
+        || lexicon.noun(&[word]).is_some()
+        || lexicon.adjective(&[word]).is_some()
+        || !lexicon.verbs(word).is_empty()
+        || super::inflect::number(word).is_some()
+        || scene.vocabulary().any(|known| known == word)
+        || super::inflect::singulars(word)
+            .iter()
+            .any(|s| lexicon.vocabulary().contains(s) || scene.vocabulary().any(|known| known == s))
+}
+
+/// The nearest of some words, if it is near enough; of equally near ones, the one of the same length and
+/// first letter, then the first in order.
+fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<(String, usize)> {
+    let limit = if word.chars().count() >= 7 { 2 } else { 1 };
+    let letters: Vec<char> = word.chars().collect();
+    let mut best: Option<((usize, bool, usize), String)> = None;
+    for candidate in known {
+        let length = candidate.chars().count();
+        if length < 4 || length.abs_diff(letters.len()) > limit {
+            continue;
+        }
+        let mut plurals = vec![(candidate.to_owned(), candidate.to_owned())];
+        if word.ends_with('s') && !candidate.ends_with('s') {
+            plurals.push((format!("{candidate}s"), format!("{candidate}s")));
+        }
+        for (form, answer) in plurals {
+            let other: Vec<char> = form.chars().collect();
+            let distance = damerau_levenshtein(&letters, &other);
+            if distance > limit {
+                continue;
+            }
+            let score = (distance, letters.first() != other.first(), other.len().abs_diff(letters.len()));
+            if best.as_ref().is_none_or(|(found, _)| score < *found) {
+                best = Some((score, answer));
+            }
+        }
+    }
+    best.map(|(score, answer)| (answer, score.0))
+}
+
+/// Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours
+/// (F. J. Damerau, "A technique for computer detection and correction of spelling errors", CACM 7(3), 1964).
+pub fn damerau_levenshtein(a: &[char], b: &[char]) -> usize {
+    let width = b.len() + 1;
+    let mut table = vec![0; (a.len() + 1) * width];
+    for i in 0..=a.len() {
+        for j in 0..=b.len() {
+            table[i * width + j] = if i == 0 || j == 0 {
+                i + j
+            } else {
+                let cost = usize::from(a[i - 1] != b[j - 1]);
+                let mut best = (table[(i - 1) * width + j] + 1)
+                    .min(table[i * width + j - 1] + 1)
+                    .min(table[(i - 1) * width + j - 1] + cost);
+                if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                    best = best.min(table[(i - 2) * width + j - 2] + 1);
+                }
+                best
+            };
+        }
+    }
+    table[a.len() * width + b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn distance(a: &str, b: &str) -> usize {
+        damerau_levenshtein(&a.chars().collect::<Vec<_>>(), &b.chars().collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn distances_count_swaps_as_one() {
+        assert_eq!(distance("tomatoe", "tomato"), 1);
+        assert_eq!(distance("firdge", "fridge"), 1);
+        assert_eq!(distance("", "abc"), 3);
+    }
+
+    #[test]
+    fn marks_and_contractions_are_split() {
+        let words: Vec<String> =
+            tokens("Don't open it; it's Tom's CD's & book.").into_iter().map(|t| t.text).collect();
+        assert_eq!(words, ["dont", "open", "it", ".", "it", "tom", "'s", "cd", "'s", "and", "book", "."]);
+    }
+}

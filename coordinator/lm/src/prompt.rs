@@ -1,0 +1,139 @@
+//! What a chat model is told: the task, the format, the scene and the team; and the schema of the answer.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::Request;
+use crate::decode::PROPERTIES;
+
+/// Goes into the cassette's key: another wording is another question.
+pub const VERSION: u32 = 1;
+
+const SYSTEM: &str = "\
+You turn a household instruction into sub-tasks for a team of robots. Say what shall be TRUE, not what to do.
+Answer with one JSON object and nothing else:
+{\"subtasks\":[{\"id\":\"s1\",\"text\":\"…\",\"goal\":[ENTRY,…],\"after\":[\"s0\"],\"lasting\":true}],\
+\"assumptions\":[\"…\"],\"confidence\":0.9}
+ENTRY is about one object: {\"object\":\"Fridge\",\"contains\":[\"Apple\",{\"object\":\"Plate\",\"is\":{\"isDirty\":false}}],\
+\"is\":{\"isOpen\":false},\"all\":false,\"same\":\"x\"}.
+- \"object\" and the members of \"contains\" are object types or object names of the scene, spelt as they are there.
+- \"is\" uses only the properties listed below. \"all\": true means every object of the type.
+- A type named twice in \"contains\" means two different objects. Entries with the same \"same\" are about one object.
+- \"after\" names the sub-tasks that must be done before; leave it empty for what may be done in parallel.
+- \"lasting\": false for a sub-task that a later one undoes.
+- Put into the last goal of an object also the states it must have then (a washed fork in a bowl: isDirty false).
+- Never mention an object the instruction neither names nor implies.
+- If you cannot tell what is meant, answer {\"question\":\"…\"} instead.";
+
+/// The messages of the first try.
+pub fn messages(request: &Request) -> Vec<Value> {
+    vec![
+        json!({"role": "system", "content": format!("{SYSTEM}\nProperties: {}.", properties())}),
+        json!({"role": "user", "content": user(request)}),
+    ]
+}
+
+/// The messages that send an answer back with what is wrong with it.
+pub fn repair(answer: &str, errors: &[String]) -> Vec<Value> {
+    let mut text = String::from("This answer cannot be used:\n");
+    for error in errors.iter().take(20) {
+        let _ = writeln!(text, "- {error}");
+    }
+    text.push_str("Send the whole corrected JSON object and nothing else.");
+    vec![
+        json!({"role": "assistant", "content": shorten(answer, 8192)}),
+        json!({"role": "user", "content": text}),
+    ]
+}
+
+fn shorten(text: &str, limit: usize) -> &str {
+    let end = text.char_indices().map(|(at, _)| at).find(|&at| at > limit).unwrap_or(text.len());
+    &text[..end]
+}
+
+fn properties() -> String {
+    let parts: Vec<String> = PROPERTIES
+        .iter()
+        .map(|(name, words)| if words.is_empty() { format!("{name} (true/false)") } else { format!("{name} ({})", words.join("/")) })
+        .collect();
+    parts.join(", ")
+}
+
+fn user(request: &Request) -> String {
+    let mut text = format!("Instruction: {}\n\nObjects (name; where; what holds now):\n", request.instruction);
+    for object in &request.objects {
+        let _ = write!(text, "{}", object.name);
+        if !object.parents.is_empty() {
+            let _ = write!(text, "; in {}", object.parents.join(", "));
+        }
+        if !object.states.is_empty() {
+            let _ = write!(text, "; {}", object.states.join(", "));
+        }
+        text.push('\n');
+    }
+    let mut affordances: BTreeMap<&str, &[String]> = BTreeMap::new();
+    for object in &request.objects {
+        affordances.entry(&object.kind).or_insert(&object.affordances);
+    }
+    text.push_str("\nTypes and what they afford:\n");
+    for (kind, affordances) in affordances {
+        let _ = writeln!(text, "{kind}: {}", affordances.join(", "));
+    }
+    text.push_str("\nTeam:\n");
+    for robot in &request.robots {
+        let _ = writeln!(text, "{}: {}; lifts {} kg", robot.name, robot.skills.join(", "), robot.capacity_kg);
+    }
+    text
+}
+
+/// The JSON schema of an answer. Definitions are written out in place and lists are closed, since servers'
+/// grammar converters know only part of the language.
+pub fn schema() -> Value {
+    let inner = entry(&json!({"type": "string"}));
+    let content = json!({"anyOf": [{"type": "string"}, inner]});
+    let subtask = json!({
+        "type": "object",
+        "additionalProperties": false,
+        "required": ["id", "text", "goal", "after", "lasting"],
+        "properties": {
+            "id": {"type": "string"},
+            "text": {"type": "string"},
+            "goal": {"type": "array", "items": entry(&content)},
+            "after": {"type": "array", "items": {"type": "string"}},
+            "robots": {"type": "array", "items": {"type": "string"}},
+            "lasting": {"type": "boolean"}
+        }
+    });
+    json!({
+        "type": "object",
+        "additionalProperties": false,
+        "properties": {
+            "subtasks": {"type": "array", "items": subtask},
+            "assumptions": {"type": "array", "items": {"type": "string"}},
+            "confidence": {"type": "number"},
+            "question": {"type": "string"}
+        }
+    })
+}
+
+fn entry(content: &Value) -> Value {
+    let mut properties = serde_json::Map::new();
+    for (name, words) in PROPERTIES {
+        let kind = if words.is_empty() { json!({"type": "boolean"}) } else { json!({"type": "string", "enum": words}) };
+        properties.insert((*name).to_owned(), kind);
+    }
+    json!({
+        "type": "object",
+        "additionalProperties": false,
+        "required": ["object"],
+        "properties": {
+            "object": {"type": "string"},
+            "contains": {"type": "array", "items": content},
+            "is": {"type": "object", "additionalProperties": false, "properties": properties},
+            "all": {"type": "boolean"},
+            "same": {"type": "string"}
+        }
+    })
+}

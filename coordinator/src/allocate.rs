@@ -1,0 +1,323 @@
+//! The Task Allocator: which robot does which sub-task, for the smallest makespan.
+//!
+//! Every robot bids for every sub-task with a plan of its own (so a bid is a proof of ability, skills and
+//! capacity included); the assignment with the smallest estimated makespan wins, then the least total work,
+//! then roster order. What nobody can do alone is split at the facts the robots hand over, and every robot
+//! bids for the parts; later sub-tasks profit from what such a part opens up.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use lamma_pddl::ast::{Condition, GroundAtom};
+use lamma_planner::GroundAct;
+use lamma_planner::interpreter::{Interpreter, WorldState};
+use lamma_planner::{Limits, Outcome};
+
+use crate::bound::makespan_lower_bound;
+use crate::combine::world_state;
+use crate::problem::member_problem;
+use crate::reason::why_infeasible;
+use crate::assign::{Work, assign};
+use crate::split::{segments, team_plan};
+use crate::team::Team;
+use crate::understand::Subgoal;
+
+/// What there is to allocate.
+#[derive(Clone, Debug)]
+pub struct AllocateInput {
+    /// The team.
+    pub team: Arc<Team>,
+    /// Members that are alive, by index.
+    pub available: Vec<usize>,
+    /// What holds now.
+    pub facts: BTreeSet<GroundAtom>,
+    /// The sub-tasks.
+    pub subgoals: Vec<Subgoal>,
+    /// (sub-task, member) pairs that were tried and failed.
+    pub excluded: BTreeSet<(usize, usize)>,
+    /// What shall hold at the end, for the bound.
+    pub final_goal: Condition,
+    /// Bound of each search, in expanded states.
+    pub expansions: u64,
+}
+
+/// What one robot plans for at once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PackageSpec {
+    /// Whose.
+    pub member: usize,
+    /// Its goal.
+    pub goal: Condition,
+    /// The sub-tasks it serves, by index.
+    pub subgoals: Vec<usize>,
+    /// Packages it is planned after: by order asked for, by hand-over, or because they are the same
+    /// robot's earlier work.
+    pub after: Vec<usize>,
+    /// Those among them whose order the instruction asks for.
+    pub asked_after: Vec<usize>,
+    /// A plan to fall back on when the robot's own planning fails.
+    pub fallback: Option<Vec<GroundAct>>,
+}
+
+/// The result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Allocation {
+    /// The packages; every `after` points backwards.
+    pub packages: Vec<PackageSpec>,
+    /// A lower bound of the makespan, in steps.
+    pub lower_bound: f64,
+}
+
+impl Allocation {
+    /// The members that serve a sub-task.
+    pub fn members_of(&self, subgoal: usize) -> Vec<usize> {
+        let mut members: Vec<usize> =
+            self.packages.iter().filter(|p| p.subgoals.contains(&subgoal)).map(|p| p.member).collect();
+        members.sort_unstable();
+        members.dedup();
+        members
+    }
+}
+
+/// Why there is no allocation.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoAllocation {
+    /// Proved: no member, nor all together, can do it.
+    Infeasible(String),
+    /// Not found within the limits.
+    GaveUp(String),
+}
+
+/// A sub-task, or a part of one between two hand-overs, with everybody's bids.
+#[derive(Debug)]
+struct Item {
+    subgoal: usize,
+    goal: Condition,
+    /// Items it starts after, by hand-over or because it was asked for.
+    after: Vec<usize>,
+    /// Those it was asked to follow.
+    asked: Vec<usize>,
+    /// A plan per member that can do it alone.
+    bids: BTreeMap<usize, Vec<GroundAct>>,
+    /// The member that the team's plan chose, and what that plan has it do.
+    fallback: Option<(usize, Vec<GroundAct>)>,
+    /// Whether it brings the sub-task's goal about, and not only what others need.
+    finishing: bool,
+}
+
+impl Item {
+    /// A plan for it, to see where it leads.
+    fn example(&self) -> &[GroundAct] {
+        let shortest = self.bids.values().min_by_key(|acts| acts.len());
+        shortest.or(self.fallback.as_ref().map(|(_, acts)| acts)).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// Allocates. Deterministic; the same input gives the same packages.
+pub fn allocate(input: &AllocateInput, cancel: &AtomicBool) -> Result<Allocation, NoAllocation> {
+    let interpreter = Interpreter::new(&input.team.domain, &input.team.objects)
+        .map_err(|e| NoAllocation::GaveUp(e.to_string()))?;
+    let mut allocator = Allocator { input, interpreter, items: Vec::new(), cancel };
+    for subgoal in 0..input.subgoals.len() {
+        allocator.take(subgoal)?;
+    }
+    let work: Vec<Work> = allocator.items.iter().map(work).collect();
+    let members = assign(&work);
+    let packages = packages(&allocator.items, &members);
+    let bound =
+        makespan_lower_bound(&input.team, &input.available, &input.facts, &input.final_goal);
+    Ok(Allocation { packages, lower_bound: f64::from(bound.unwrap_or(0)) })
+}
+
+fn work(item: &Item) -> Work {
+    let fallback = item.fallback.iter().map(|(member, acts)| (*member, acts.len() as u64));
+    let bids = item.bids.iter().map(|(member, acts)| (*member, acts.len() as u64));
+    // A bid of the member's own replaces the team's plan for it.
+    Work { after: item.after.clone(), cost: fallback.chain(bids).collect() }
+}
+
+struct Allocator<'a> {
+    input: &'a AllocateInput,
+    interpreter: Interpreter,
+    items: Vec<Item>,
+    cancel: &'a AtomicBool,
+}
+
+impl Allocator<'_> {
+    /// Makes a sub-task into items.
+    fn take(&mut self, index: usize) -> Result<(), NoAllocation> {
+        let subgoal = &self.input.subgoals[index];
+        let infeasible = |e: String| NoAllocation::Infeasible(format!("\"{}\": {e}", subgoal.text));
+        let ground =
+            self.interpreter.ground_condition(&subgoal.goal).map_err(|e| infeasible(e.to_string()))?;
+        let asked: Vec<usize> = (0..self.items.len())
+            .filter(|&i| self.items[i].finishing && subgoal.after.contains(&self.items[i].subgoal))
+            .collect();
+        let state = self.state_after(&asked);
+        if subgoal.after.is_empty() && self.interpreter.holds(&state, &ground) {
+            return Ok(());
+        }
+        let (bids, gave_up) = self.bids(Some(index), &subgoal.goal, &state);
+        if !bids.is_empty() {
+            self.push(index, subgoal.goal.clone(), asked.clone(), asked, bids);
+            return Ok(());
+        }
+        // What others were found to need may be all that is missing here, too.
+        let opened: Vec<usize> = (0..self.items.len()).filter(|&i| !self.items[i].finishing).collect();
+        let after = union(&asked, &opened);
+        if !opened.is_empty() {
+            let (bids, _) = self.bids(Some(index), &subgoal.goal, &self.state_after(&after));
+            if !bids.is_empty() {
+                self.push(index, subgoal.goal.clone(), after, asked, bids);
+                return Ok(());
+            }
+        }
+        self.split(index, asked, &state, gave_up)
+    }
+
+    fn push(
+        &mut self,
+        subgoal: usize,
+        goal: Condition,
+        after: Vec<usize>,
+        asked: Vec<usize>,
+        bids: BTreeMap<usize, Vec<GroundAct>>,
+    ) {
+        self.items.push(Item { subgoal, goal, after, asked, bids, fallback: None, finishing: true });
+    }
+
+    /// The state once these items, and all before them, are done.
+    fn state_after(&self, items: &[usize]) -> WorldState {
+        let mut all = BTreeSet::new();
+        let mut queue = items.to_vec();
+        while let Some(i) = queue.pop() {
+            if all.insert(i) {
+                queue.extend(&self.items[i].after);
+            }
+        }
+        let mut state = world_state(&self.input.facts);
+        for act in all.into_iter().flat_map(|i| self.items[i].example()) {
+            if let Ok(action) = self.interpreter.instantiate(act) {
+                // A step that two items share fails the second time; what it achieves holds.
+                let _ = self.interpreter.apply(&mut state, &action);
+            }
+        }
+        state
+    }
+
+    fn limits(&self) -> Limits {
+        Limits { expansions: Some(self.input.expansions), ..Limits::default() }
+    }
+
+    /// A plan of every member that can do it alone, and why somebody gave up, if one did.
+    fn bids(
+        &self,
+        subgoal: Option<usize>,
+        goal: &Condition,
+        state: &WorldState,
+    ) -> (BTreeMap<usize, Vec<GroundAct>>, Option<String>) {
+        let team = &self.input.team;
+        let mut bids = BTreeMap::new();
+        let mut gave_up = None;
+        for &member in &self.input.available {
+            if subgoal.is_some_and(|s| self.input.excluded.contains(&(s, member))) {
+                continue;
+            }
+            let problem = member_problem(team, member, &state.facts, goal);
+            match lamma_planner::plan(&team.members[member].domain, &problem, &self.limits(), self.cancel) {
+                Ok(Outcome::Found(plan)) => {
+                    bids.insert(member, plan.acts);
+                }
+                Ok(Outcome::Unsolvable(_)) => {}
+                Ok(Outcome::GaveUp(why)) => gave_up = Some(why.to_string()),
+                Err(error) => gave_up = Some(error.to_string()),
+            }
+        }
+        (bids, gave_up)
+    }
+
+    /// What nobody can do alone becomes an item for each part between two hand-overs.
+    fn split(
+        &mut self,
+        index: usize,
+        asked: Vec<usize>,
+        state: &WorldState,
+        gave_up: Option<String>,
+    ) -> Result<(), NoAllocation> {
+        let subgoal = &self.input.subgoals[index];
+        let (team, available, goal) = (&self.input.team, &self.input.available, &subgoal.goal);
+        let limits = self.limits();
+        let plan = match team_plan(team, available, &state.facts, &[], goal, &limits, self.cancel) {
+            Ok(Outcome::Found(plan)) => plan,
+            Ok(Outcome::Unsolvable(reason)) => {
+                let why = why_infeasible(self.input, &state.facts, goal, &limits, self.cancel);
+                let why = why.unwrap_or_else(|| reason.to_string());
+                let text = format!("nobody of the team can do \"{}\": {why}", subgoal.text);
+                return Err(NoAllocation::Infeasible(text));
+            }
+            Ok(Outcome::GaveUp(why)) => return Err(NoAllocation::GaveUp(gave_up.unwrap_or(why.to_string()))),
+            Err(why) => return Err(NoAllocation::GaveUp(why)),
+        };
+        let segments = segments(team, &self.interpreter, &state.facts, goal, &plan)
+            .map_err(NoAllocation::GaveUp)?;
+        let base = self.items.len();
+        for segment in segments {
+            let handed: Vec<usize> = segment.after.iter().map(|k| base + k).collect();
+            let after = union(&asked, &handed);
+            let (bids, _) = self.bids(None, &segment.goal, &self.state_after(&after));
+            self.items.push(Item {
+                subgoal: index,
+                goal: segment.goal,
+                after,
+                asked: asked.clone(),
+                bids,
+                fallback: Some((segment.member, segment.acts)),
+                finishing: segment.finishing,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Items of one robot that follow the same others are planned together, so that its planner can do two
+/// errands on one way.
+fn packages(items: &[Item], members: &[usize]) -> Vec<PackageSpec> {
+    let mut packages: Vec<PackageSpec> = Vec::new();
+    let mut package_of: Vec<usize> = Vec::with_capacity(items.len());
+    for (item, &member) in items.iter().zip(members) {
+        let mapped = |list: &[usize]| union(&list.iter().map(|&i| package_of[i]).collect::<Vec<_>>(), &[]);
+        let (after, asked) = (mapped(&item.after), mapped(&item.asked));
+        let own: Vec<usize> = (0..packages.len()).filter(|&p| packages[p].member == member).collect();
+        let joins = own.last().copied().filter(|&p| {
+            // The robot's own earlier packages come before it in any case.
+            let others: Vec<usize> = packages[p].after.iter().copied().filter(|a| !own.contains(a)).collect();
+            let mine: Vec<usize> = after.iter().copied().filter(|a| !own.contains(a)).collect();
+            others == mine && packages[p].asked_after == asked && !after.contains(&p)
+        });
+        if let Some(p) = joins {
+            let package = &mut packages[p];
+            package.subgoals.push(item.subgoal);
+            package.fallback = None;
+            let old = std::mem::replace(&mut package.goal, Condition::TRUE);
+            package.goal = Condition::And(vec![old, item.goal.clone()]);
+            package_of.push(p);
+            continue;
+        }
+        package_of.push(packages.len());
+        let fallback = item.fallback.as_ref().filter(|(owner, _)| *owner == member);
+        packages.push(PackageSpec {
+            member,
+            goal: item.goal.clone(),
+            subgoals: vec![item.subgoal],
+            after: union(&after, &own),
+            asked_after: asked,
+            fallback: fallback.map(|(_, acts)| acts.clone()),
+        });
+    }
+    packages
+}
+
+fn union(a: &[usize], b: &[usize]) -> Vec<usize> {
+    a.iter().chain(b).copied().collect::<BTreeSet<_>>().into_iter().collect()
+}

@@ -1,0 +1,113 @@
+//! The Sub-Plan Combiner: a valid linear plan of the team becomes a partial order with gates.
+
+use lamma_pddl::ast::Condition;
+use lamma_planner::interpreter::{Interpreter, WorldState};
+use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder, literal_effects};
+use lamma_protocol::message::{Act, Gate, Step};
+use lamma_protocol::{AgentId, StepIndex};
+
+use crate::allocate::PackageSpec;
+use crate::merge::Merger;
+use crate::team::Team;
+
+/// The team's plan, ready to be handed out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TeamPlan {
+    /// Each member's steps, in roster order.
+    pub steps: Vec<Vec<Step>>,
+    /// All steps in a valid linear order, with their earliest start.
+    pub timeline: Vec<TimedStep>,
+    /// When the last step ends if everybody acts as soon as the order allows, in steps.
+    pub makespan: f64,
+}
+
+/// A step on the timeline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimedStep {
+    /// Earliest start.
+    pub start: f64,
+    /// Which member.
+    pub member: usize,
+    /// Which of its steps.
+    pub index: StepIndex,
+    /// What is done.
+    pub act: Act,
+}
+
+/// Deorders the merged plan. `packages` are those that were merged, by the index the merger knows.
+pub fn combine(
+    team: &Team,
+    interpreter: &Interpreter,
+    merger: &Merger,
+    packages: &[PackageSpec],
+    goal: &Condition,
+) -> Result<TeamPlan, String> {
+    let ground = interpreter.ground_condition(goal).map_err(|e| e.to_string())?;
+    let keep = asked_order(interpreter, merger, packages)?;
+    let order = deorder(interpreter, &merger.initial, merger.steps.clone(), &ground, &keep)
+        .map_err(|(i, violation)| format!("step {i} of the merged plan: {violation}"))?;
+    Ok(team_plan(team, &order))
+}
+
+/// The orderings the instruction asks for: where one package is to be done after another, the steps that
+/// bring its goal about come after the other's last step. Steps that only prepare may run ahead.
+fn asked_order(
+    interpreter: &Interpreter,
+    merger: &Merger,
+    packages: &[PackageSpec],
+) -> Result<Vec<(usize, usize)>, String> {
+    let mut keep = Vec::new();
+    for later in &merger.packages {
+        let spec = &packages[later.package];
+        let goal = interpreter.ground_condition(&spec.goal).map_err(|e| e.to_string())?;
+        let atoms: std::collections::BTreeSet<_> = goal.literals().into_iter().map(|l| l.atom.clone()).collect();
+        let decisive: Vec<usize> =
+            later.steps.clone().filter(|&i| touches(&merger.steps[i], &atoms)).collect();
+        for earlier in merger.packages.iter().filter(|p| spec.asked_after.contains(&p.package)) {
+            if let Some(last) = earlier.steps.clone().last() {
+                keep.extend(decisive.iter().map(|&d| (last, d)));
+            }
+        }
+    }
+    Ok(keep)
+}
+
+fn touches(step: &TeamStep, atoms: &std::collections::BTreeSet<lamma_pddl::ast::GroundAtom>) -> bool {
+    literal_effects(&step.action).any(|(_, effect)| atoms.contains(&effect.atom))
+}
+
+fn team_plan(team: &Team, order: &PartialOrder) -> TeamPlan {
+    let gates = order.gates();
+    let starts = order.earliest_starts();
+    let mut steps: Vec<Vec<Step>> = vec![Vec::new(); team.members.len()];
+    let mut timeline = Vec::with_capacity(order.steps.len());
+    for (i, step) in order.steps.iter().enumerate() {
+        let act = act_of(&step.action.act);
+        let gates = gates[i].iter().map(|&(agent, done)| Gate {
+            agent: AgentId(agent as u16),
+            done: StepIndex(done),
+        });
+        let index = StepIndex(steps[step.agent].len() as u32);
+        timeline.push(TimedStep { start: starts[i], member: step.agent, index, act: act.clone() });
+        steps[step.agent].push(Step { act, gates: gates.collect() });
+    }
+    timeline.sort_by(|a, b| a.start.total_cmp(&b.start).then(a.member.cmp(&b.member)));
+    TeamPlan { steps, timeline, makespan: order.makespan() }
+}
+
+fn act_of(ground: &lamma_planner::GroundAct) -> Act {
+    Act {
+        action: ground.action.to_string(),
+        args: ground.args.iter().map(ToString::to_string).collect(),
+    }
+}
+
+/// The act as the planner knows it.
+pub fn ground_act(act: &Act) -> lamma_planner::GroundAct {
+    lamma_planner::GroundAct::new(act.action.as_str(), act.args.iter().map(String::as_str))
+}
+
+/// The state of the world from its facts.
+pub fn world_state(facts: &std::collections::BTreeSet<lamma_pddl::ast::GroundAtom>) -> WorldState {
+    WorldState { facts: facts.clone(), values: Default::default() }
+}

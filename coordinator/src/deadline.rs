@@ -1,0 +1,74 @@
+//! What happens when something takes too long. No phase waits without a deadline.
+
+use lamma_protocol::{AgentId, Tick};
+
+use crate::machine::Coordinator;
+use crate::phase::Phase;
+use crate::result::OutcomeKind;
+
+/// How long everybody has to join.
+const JOIN_MS: u64 = 15_000;
+/// How long the arbiter may take to open an epoch.
+const GRANT_MS: u64 = 10_000;
+/// How long a robot may plan one batch.
+const PLAN_MS: u64 = 60_000;
+/// How long nobody may move before those who could are given up.
+const STALL_MS: u64 = 4_000;
+
+impl Coordinator {
+    pub(crate) fn phase_deadline(&self) -> Option<Tick> {
+        let after = |ms| Some(self.stopwatch.since().after_ms(ms));
+        match &self.phase {
+            Phase::Joining => after(JOIN_MS),
+            Phase::Granting => after(GRANT_MS),
+            Phase::Planning(_) => after(PLAN_MS),
+            Phase::Executing(following) => {
+                Some(following.last_progress.after_ms(STALL_MS + 2 * self.config.step_ms))
+            },
+            Phase::Decomposing(_) | Phase::Allocating(_) | Phase::Combining(..) | Phase::Finished => None,
+        }
+    }
+
+    pub(crate) fn timeout(&mut self) {
+        if self.now >= self.repeat_at {
+            self.repeat();
+        }
+        if matches!(self.phase, Phase::Finished) {
+            return;
+        }
+        if self.now >= Tick(0).after_ms(self.config.time_limit_ms) {
+            let reason = format!("out of time while {}", self.phase.label());
+            return self.finish(OutcomeKind::GaveUp, Some(reason));
+        }
+        if self.phase_deadline().is_some_and(|deadline| self.now >= deadline) {
+            self.overdue();
+        }
+    }
+
+    pub(crate) fn overdue(&mut self) {
+        let late: Vec<AgentId> = match &self.phase {
+            Phase::Granting => {
+                let reason = "the simulator does not answer".into();
+                return self.finish(OutcomeKind::Error, Some(reason));
+            }
+            Phase::Joining => {
+                if self.view.state().is_none() {
+                    let reason = "no world: the simulator has not joined".into();
+                    return self.finish(OutcomeKind::Error, Some(reason));
+                }
+                self.roster.alive().filter(|a| self.roster.report(*a).is_none()).collect()
+            }
+            Phase::Planning(round) => self.unanswered(round),
+            Phase::Executing(following) => self.stuck(following),
+            Phase::Decomposing(_) | Phase::Allocating(_) | Phase::Combining(..) | Phase::Finished => return,
+        };
+        if late.is_empty() {
+            let reason = format!("nothing moves and nobody is late while {}", self.phase.label());
+            return self.finish(OutcomeKind::Error, Some(reason));
+        }
+        for agent in late {
+            self.lose(agent, format!("does not answer while {}", self.phase.label()));
+        }
+        self.after_loss();
+    }
+}

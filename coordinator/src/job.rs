@@ -1,0 +1,77 @@
+//! Long work of the coordinator.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use lamma_pddl::ast::{Condition, GroundAtom};
+use lamma_planner::interpreter::Interpreter;
+
+use crate::allocate::{AllocateInput, Allocation, NoAllocation, PackageSpec, allocate};
+use crate::combine::{TeamPlan, combine};
+use crate::merge::Merger;
+use crate::team::Team;
+use crate::understand::Understood;
+
+/// What the coordinator hands out.
+#[derive(Clone, Debug)]
+pub enum CoordinatorJob {
+    /// Ask the language model. Done by whoever owns the model: it may wait for a network.
+    Understand {
+        /// What holds now, for the scene description.
+        facts: BTreeSet<GroundAtom>,
+    },
+    /// See [`allocate`].
+    Allocate(Box<AllocateInput>),
+    /// See [`combine`].
+    Combine(Box<CombineInput>),
+}
+
+/// Input of [`CoordinatorJob::Combine`].
+#[derive(Clone, Debug)]
+pub struct CombineInput {
+    /// The team.
+    pub team: Arc<Team>,
+    /// The merged plan.
+    pub merger: Merger,
+    /// The packages in it.
+    pub packages: Vec<PackageSpec>,
+    /// What shall hold at the end.
+    pub goal: Condition,
+}
+
+/// What comes back.
+#[derive(Debug)]
+pub enum CoordinatorDone {
+    /// Of [`CoordinatorJob::Understand`].
+    Understood(Box<Understood>),
+    /// Of [`CoordinatorJob::Allocate`].
+    Allocated(Result<Allocation, NoAllocation>),
+    /// Of [`CoordinatorJob::Combine`].
+    Combined(Result<TeamPlan, String>),
+}
+
+impl CoordinatorJob {
+    /// Does the job; `understand` answers for the language model.
+    pub fn run(
+        self,
+        understand: impl FnOnce(BTreeSet<GroundAtom>, &AtomicBool) -> Understood,
+        cancel: &AtomicBool,
+    ) -> CoordinatorDone {
+        match self {
+            CoordinatorJob::Understand { facts } => {
+                CoordinatorDone::Understood(Box::new(understand(facts, cancel)))
+            }
+            CoordinatorJob::Allocate(input) => CoordinatorDone::Allocated(allocate(&input, cancel)),
+            CoordinatorJob::Combine(input) => CoordinatorDone::Combined(input.run()),
+        }
+    }
+}
+
+impl CombineInput {
+    fn run(&self) -> Result<TeamPlan, String> {
+        let interpreter =
+            Interpreter::new(&self.team.domain, &self.team.objects).map_err(|e| e.to_string())?;
+        combine(&self.team, &interpreter, &self.merger, &self.packages, &self.goal)
+    }
+}

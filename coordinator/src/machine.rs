@@ -1,0 +1,187 @@
+//! The coordinator's state machine.
+//!
+//! Every input first changes what is known (roster, world view); then [`Coordinator::advance`] looks at
+//! what is known and takes every transition that has become possible. Nothing depends on having seen a
+//! message at the right moment, which is what makes lost and repeated messages harmless.
+
+use std::collections::{BTreeSet, VecDeque};
+use std::sync::Arc;
+
+use lamma_planner::interpreter::Interpreter;
+use lamma_protocol::message::{
+    Directive, Event, Message,
+};
+use lamma_protocol::{AgentId, Epoch, Input, Machine, Output, Revision, Tick, Topic};
+
+use crate::allocate::Allocation;
+use crate::combine::TeamPlan;
+use crate::job::{CoordinatorDone, CoordinatorJob};
+use crate::phase::Phase;
+use crate::result::{ActionResult, FaultResult};
+use crate::stopwatch::Stopwatch;
+use crate::roster::Roster;
+use crate::team::Team;
+use crate::understand::{ScoreGoal, Understanding};
+use crate::world_view::WorldView;
+
+/// What a coordinator is born with.
+#[derive(Clone, Debug)]
+pub struct CoordinatorConfig {
+    /// The team.
+    pub team: Arc<Team>,
+    /// What is wanted, when it needs no language; otherwise the language model is asked.
+    pub given: Option<Understanding>,
+    /// What the outcome is judged by, when it is not what was understood (a benchmark's own goal).
+    pub score: Option<ScoreGoal>,
+    /// The best makespan and number of steps known for the task, for Eff and RU. Without it the first
+    /// plan is the reference.
+    pub reference: Option<(f64, usize)>,
+    /// Stop when the plan is combined.
+    pub solve_only: bool,
+    /// Bound of each of the coordinator's searches, in expanded states.
+    pub expansions: u64,
+    /// When to give up.
+    pub time_limit_ms: u64,
+    /// How long the simulator takes for a time step, in milliseconds: nobody is late before that.
+    pub step_ms: u64,
+}
+
+/// The coordinator.
+pub struct Coordinator {
+    pub(crate) config: CoordinatorConfig,
+    pub(crate) interpreter: Interpreter,
+    pub(crate) roster: Roster,
+    pub(crate) view: WorldView,
+    pub(crate) phase: Phase,
+    pub(crate) understanding: Option<Understanding>,
+    pub(crate) allocation: Option<Allocation>,
+    pub(crate) lower_bound: Option<f64>,
+    pub(crate) first_plan: Option<(f64, usize)>,
+    pub(crate) history: Vec<ActionResult>,
+    pub(crate) faults: Vec<FaultResult>,
+    pub(crate) recoveries: Vec<FaultResult>,
+    pub(crate) stopwatch: Stopwatch,
+    /// Where the plan leads, when it is not carried out.
+    pub(crate) planned_state: Option<BTreeSet<lamma_pddl::ast::GroundAtom>>,
+    pub(crate) epoch: Epoch,
+    pub(crate) granted_lost: Vec<AgentId>,
+    /// The team's plan of the epoch that is being closed.
+    pub(crate) closing: Option<TeamPlan>,
+    pub(crate) reached_on_the_way: BTreeSet<usize>,
+    pub(crate) excluded: BTreeSet<(usize, usize)>,
+    pub(crate) replans: u32,
+    pub(crate) next_job: u64,
+    pub(crate) now: Tick,
+    pub(crate) commanded: Option<Revision>,
+    pub(crate) events: VecDeque<Event>,
+    pub(crate) events_dropped: u64,
+    pub(crate) result: Option<String>,
+    pub(crate) directives: Vec<Option<Directive>>,
+    pub(crate) repeat_at: Tick,
+    pub(crate) outputs: VecDeque<Output<CoordinatorJob>>,
+    pub(crate) untold: bool,
+}
+
+impl Coordinator {
+    /// A coordinator that waits for its team. Errors if the team's domain does not make sense.
+    pub fn new(config: CoordinatorConfig) -> Result<Self, String> {
+        let interpreter =
+            Interpreter::new(&config.team.domain, &config.team.objects).map_err(|e| e.to_string())?;
+        let members = config.team.members.len();
+        Ok(Coordinator {
+            interpreter,
+            roster: Roster::new(members),
+            view: WorldView::default(),
+            phase: Phase::Joining,
+            understanding: config.given.clone(),
+            allocation: None,
+            lower_bound: None,
+            first_plan: None,
+            history: Vec::new(),
+            faults: Vec::new(),
+            recoveries: Vec::new(),
+            stopwatch: Stopwatch::default(),
+            planned_state: None,
+            epoch: Epoch(0),
+            granted_lost: Vec::new(),
+            closing: None,
+            reached_on_the_way: BTreeSet::new(),
+            excluded: BTreeSet::new(),
+            replans: 0,
+            next_job: 0,
+            now: Tick(0),
+            commanded: None,
+            events: VecDeque::new(),
+            events_dropped: 0,
+            result: None,
+            directives: vec![None; members],
+            repeat_at: Tick(0),
+            outputs: VecDeque::new(),
+            untold: true,
+            config,
+        })
+    }
+
+    /// The result as JSON, once the run is over.
+    pub fn result(&self) -> Option<&str> {
+        self.result.as_deref()
+    }
+
+    /// The phase, for people and tests.
+    pub fn phase(&self) -> &'static str {
+        self.phase.label()
+    }
+
+    pub(crate) fn name_of(&self, agent: AgentId) -> String {
+        self.config.team.members.get(agent.index()).map_or_else(|| agent.0.to_string(), |m| m.name.to_string())
+    }
+
+    /// Takes the phase out to work on it; [`Coordinator::put_phase`] must follow.
+    pub(crate) fn take_phase(&mut self) -> Phase {
+        std::mem::replace(&mut self.phase, Phase::Finished)
+    }
+
+    pub(crate) fn put_phase(&mut self, phase: Phase) {
+        self.phase = phase;
+    }
+}
+
+impl Machine for Coordinator {
+    type Job = CoordinatorJob;
+    type Done = CoordinatorDone;
+
+    fn handle(&mut self, now: Tick, input: Input<'_, CoordinatorDone>) {
+        self.now = now;
+        match input {
+            Input::Message(topic, envelope) => match (topic, envelope.message) {
+                (Topic::Command, Message::Command(command)) => self.command(envelope.revision, command),
+                (Topic::Report(agent), Message::Report(report)) => {
+                    self.report(agent, envelope.revision, report);
+                }
+                (Topic::Vocabulary, Message::Vocabulary(vocabulary)) => self.view.learn(&vocabulary.facts),
+                (topic, _) => self.outputs.push_back(Output::Log(format!("nothing to do with {topic}"))),
+            },
+            Input::Frame(frame) => {
+                self.view.see(&frame);
+            }
+            Input::Done(job, done) => self.done(job, done),
+            Input::Timeout => self.timeout(),
+            // Certainty comes from the supervisor and from progress.
+            Input::PeerHint(_) => {}
+        }
+        self.advance();
+        if self.untold {
+            self.say_outcome();
+        }
+    }
+
+    fn poll_output(&mut self) -> Option<Output<CoordinatorJob>> {
+        self.outputs.pop_front()
+    }
+
+    fn poll_timeout(&self) -> Option<Tick> {
+        let limit = (!matches!(self.phase, Phase::Finished))
+            .then(|| Tick(0).after_ms(self.config.time_limit_ms));
+        [Some(self.repeat_at), self.phase_deadline(), limit].into_iter().flatten().min()
+    }
+}

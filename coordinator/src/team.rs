@@ -1,0 +1,102 @@
+//! The team as planning sees it: ⟨agents, domain, objects⟩, each agent with its own domain.
+
+use std::sync::Arc;
+
+use lamma_pddl::Name;
+use lamma_pddl::ast::{Atom, Condition, Domain, GroundAtom, Signature, Term, TypedName};
+
+/// A robot of the team.
+#[derive(Clone, Debug)]
+pub struct Member {
+    /// The object that stands for it in the world.
+    pub name: Name,
+    /// Its own domain; the actions in it are its skills. Its first parameter is the one who acts.
+    pub domain: Arc<Domain>,
+}
+
+impl Member {
+    /// Whether it has the skill.
+    pub fn can(&self, action: &Name) -> bool {
+        self.domain.actions.iter().any(|a| a.name == *action)
+    }
+}
+
+/// Facts that are not so, and what one would have to say if they stood between the team and its goal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Relaxation {
+    /// "Box_1 weighs 3 kg; the strongest of the team lifts 2.1 kg".
+    pub reason: String,
+    /// Static facts that would remove the obstacle.
+    pub facts: Vec<GroundAtom>,
+}
+
+/// The team and the world it acts in.
+#[derive(Clone, Debug)]
+pub struct Team {
+    /// In roster order.
+    pub members: Vec<Member>,
+    /// The domain of all skills.
+    pub domain: Arc<Domain>,
+    /// All objects, members among them.
+    pub objects: Vec<TypedName>,
+    /// Obstacles that can be named when a goal is out of reach.
+    pub relaxations: Vec<Relaxation>,
+}
+
+fn skill_predicate(action: &Name) -> Name {
+    Name::new(format!("has-skill-{action}"))
+}
+
+impl Team {
+    /// The index of the member with that name.
+    pub fn member(&self, name: &Name) -> Option<usize> {
+        self.members.iter().position(|m| m.name == *name)
+    }
+
+    /// Whether the atom speaks of a member other than `me` (or of any, for `None`).
+    pub fn mentions_other(&self, atom: &GroundAtom, me: Option<&Name>) -> bool {
+        atom.args.iter().any(|arg| Some(arg) != me && self.member(arg).is_some())
+    }
+
+    /// The domain of the team as one actor: every action asks for its skill, so that each member does only
+    /// what it can. The skills of `available` members come as facts beside it;
+    /// actions that nobody has the skill for stay, and never apply.
+    pub fn joint(&self, available: &[usize]) -> (Domain, Vec<GroundAtom>) {
+        let mut domain = (*self.domain).clone();
+        let mut facts = Vec::new();
+        for action in &mut domain.actions {
+            let predicate = skill_predicate(&action.name);
+            let Some(actor) = action.params.first() else { continue };
+            let skill = Atom { predicate: predicate.clone(), args: vec![Term::Variable(actor.name.clone())] };
+            let precondition = std::mem::replace(&mut action.precondition, Condition::TRUE);
+            action.precondition = Condition::And(vec![Condition::Atom(skill), precondition]);
+            domain.predicates.push(Signature {
+                name: predicate.clone(),
+                params: vec![actor.clone()],
+                private_to: None,
+            });
+            for &m in available {
+                if self.members[m].can(&action.name) {
+                    facts.push(GroundAtom::new(predicate.clone(), [self.members[m].name.clone()]));
+                }
+            }
+        }
+        (domain, facts)
+    }
+
+    /// The skill facts that no available member has: what a stronger team would bring.
+    pub fn missing_skills(&self, available: &[usize]) -> Vec<(Name, Vec<GroundAtom>)> {
+        let has = |action: &Name| available.iter().any(|&m| self.members[m].can(action));
+        self.domain
+            .actions
+            .iter()
+            .filter(|a| !has(&a.name) && a.params.first().is_some())
+            .map(|a| {
+                let fact = |&m: &usize| {
+                    GroundAtom::new(skill_predicate(&a.name), [self.members[m].name.clone()])
+                };
+                (a.name.clone(), available.iter().map(fact).collect())
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,337 @@
+//! The transitions from phase to phase.
+
+use lamma_protocol::message::{Command, EventKind, Order, Report};
+use lamma_protocol::{AgentId, Epoch, JobId, Output, Revision, StepIndex};
+
+use crate::allocate::{AllocateInput, Allocation, NoAllocation};
+use crate::combine::{TeamPlan, world_state};
+use crate::job::{CoordinatorDone, CoordinatorJob};
+use crate::machine::Coordinator;
+use crate::merge::Merger;
+use crate::phase::{Following, Phase, Round};
+use crate::result::{ActionResult, OutcomeKind};
+use crate::understand::Understood;
+
+/// Plans that may follow the first.
+const MAX_REPLANS: u32 = 24;
+
+impl Coordinator {
+    pub(crate) fn enter(&mut self, phase: Phase) {
+        self.cancel_job();
+        self.stopwatch.enter(self.now, &phase);
+        self.phase = phase;
+        if !matches!(self.phase, Phase::Granting) {
+            self.event(EventKind::Phase, self.phase.label());
+        }
+    }
+
+    pub(crate) fn cancel_job(&mut self) {
+        if let Phase::Decomposing(job) | Phase::Allocating(job) | Phase::Combining(job, _) = &self.phase {
+            self.outputs.push_back(Output::Cancel(*job));
+        }
+    }
+
+    /// Opens a new epoch: the team is planned for anew, from the world as the arbiter then shows it.
+    pub(crate) fn begin_epoch(&mut self) {
+        if let Phase::Executing(following) = &self.phase {
+            self.closing = Some(following.plan.clone());
+        }
+        self.epoch = Epoch(self.epoch.0.max(self.view.epoch().0)).next();
+        self.granted_lost = self.roster.lost();
+        self.enter(Phase::Granting);
+        self.say_grant();
+    }
+
+    pub(crate) fn replan(&mut self, why: &str) {
+        self.replans += 1;
+        if self.replans > MAX_REPLANS {
+            return self.finish(OutcomeKind::GaveUp, Some(format!("{MAX_REPLANS} plans have failed; last: {why}")));
+        }
+        self.recovery(format!("planning anew: {why}"));
+        self.begin_epoch();
+    }
+
+    pub(crate) fn finish(&mut self, kind: OutcomeKind, reason: Option<String>) {
+        self.finish_with(kind, reason, None);
+    }
+
+    pub(crate) fn finish_with(&mut self, kind: OutcomeKind, reason: Option<String>, ask: Option<serde_json::Value>) {
+        if let Phase::Executing(following) = &self.phase {
+            let (plan, allocation) = (following.plan.clone(), following.allocation.clone());
+            let done: Vec<StepIndex> = self.progress();
+            self.record(&plan, &done);
+            self.allocation = Some(allocation);
+        }
+        self.enter(Phase::Finished);
+        let result = self.build_result(kind, reason, ask);
+        self.result = serde_json::to_string(&result).ok();
+        for agent in (0..self.directives.len() as u16).map(AgentId) {
+            self.direct(agent, Order::Leave);
+        }
+        self.untold = true;
+    }
+
+    pub(crate) fn progress(&self) -> Vec<StepIndex> {
+        (0..self.directives.len() as u16).map(|a| self.view.progress(AgentId(a))).collect()
+    }
+
+    /// Steps that were applied go into the history, later than everything there.
+    pub(crate) fn record(&mut self, plan: &TeamPlan, done: &[StepIndex]) {
+        self.note_reached_on_the_way(plan, done);
+        let base = self.history.iter().map(|a| a.start + 1.0).fold(0.0, f64::max);
+        for step in plan.timeline.iter().filter(|s| s.index < done[s.member]) {
+            self.history.push(ActionResult {
+                start: base + step.start,
+                robot: self.config.team.members[step.member].name.to_string(),
+                action: step.act.action.clone(),
+                args: step.act.args.iter().skip(1).cloned().collect(),
+            });
+        }
+    }
+
+    /// Sub-goals that need not last and whose robots have done all their steps are not planned for again.
+    fn note_reached_on_the_way(&mut self, plan: &TeamPlan, done: &[StepIndex]) {
+        let (Some(understanding), Some(allocation)) = (&self.understanding, &self.allocation) else { return };
+        let finished = |member: &usize| done[*member].index() >= plan.steps[*member].len();
+        for (s, subgoal) in understanding.subgoals.iter().enumerate() {
+            let members = allocation.members_of(s);
+            if !subgoal.lasting && !members.is_empty() && members.iter().all(finished) {
+                self.reached_on_the_way.insert(s);
+            }
+        }
+    }
+
+    /// Takes every transition that what is known allows.
+    pub(crate) fn advance(&mut self) {
+        loop {
+            let before = std::mem::discriminant(&self.phase);
+            let epoch = self.epoch;
+            match &self.phase {
+                Phase::Joining => self.try_leave_joining(),
+                Phase::Granting => self.try_leave_granting(),
+                Phase::Planning(_) => self.try_plan(),
+                Phase::Executing(_) => self.follow(),
+                Phase::Decomposing(_)
+                | Phase::Allocating(_)
+                | Phase::Combining(..)
+                | Phase::Finished => return,
+            }
+            if before == std::mem::discriminant(&self.phase) && epoch == self.epoch {
+                return;
+            }
+        }
+    }
+
+    pub(crate) fn try_leave_joining(&mut self) {
+        for agent in self.roster.alive().collect::<Vec<_>>() {
+            if let Some(why) = self.roster.report(agent).and_then(|r| r.broken.clone()) {
+                self.lose(agent, format!("cannot work: {why}"));
+            }
+        }
+        if self.nobody_left() {
+            return;
+        }
+        if self.roster.all_joined() && self.view.state().is_some() {
+            self.event(EventKind::Note, format!("{} robots are here", self.roster.available().len()));
+            self.begin_epoch();
+        }
+    }
+
+    pub(crate) fn nobody_left(&mut self) -> bool {
+        let nobody = self.roster.available().is_empty();
+        if nobody {
+            let why = (0..self.directives.len() as u16)
+                .map(AgentId)
+                .find_map(|a| self.roster.lost_reason(a).map(|r| format!("{} {r}", self.name_of(a))))
+                .unwrap_or_default();
+            self.finish(OutcomeKind::Infeasible, Some(format!("no robot is left ({why})")));
+        }
+        nobody
+    }
+
+    pub(crate) fn try_leave_granting(&mut self) {
+        if self.view.epoch() != self.epoch || self.view.state().is_none() {
+            return;
+        }
+        if let Some(plan) = self.closing.take() {
+            let done: Vec<StepIndex> = (0..self.directives.len() as u16)
+                .map(|a| self.view.frame().map_or(StepIndex(0), |f| f.closed(AgentId(a))))
+                .collect();
+            self.record(&plan, &done);
+        }
+        if self.roster.lost() != self.granted_lost {
+            return self.begin_epoch();
+        }
+        if self.understanding.is_some() {
+            return self.allocate();
+        }
+        let facts = self.view.state().unwrap_or_default();
+        let job = self.spawn(CoordinatorJob::Understand { facts });
+        self.enter(Phase::Decomposing(job));
+    }
+
+    pub(crate) fn allocate(&mut self) {
+        let (Some(understanding), Some(facts)) = (&self.understanding, self.view.state()) else { return };
+        let mut subgoals = understanding.subgoals.clone();
+        for &s in &self.reached_on_the_way {
+            // Reached and left behind before this plan: nothing to do, and nothing waits for it.
+            subgoals[s].goal = lamma_pddl::ast::Condition::TRUE;
+            subgoals[s].after.clear();
+        }
+        let input = AllocateInput {
+            team: self.config.team.clone(),
+            available: self.roster.available(),
+            facts,
+            subgoals,
+            excluded: self.excluded.clone(),
+            final_goal: understanding.final_goal(),
+            expansions: self.config.expansions,
+        };
+        let job = self.spawn(CoordinatorJob::Allocate(Box::new(input)));
+        self.enter(Phase::Allocating(job));
+    }
+
+    pub(crate) fn understood(&mut self, understood: Understood) {
+        match understood {
+            Understood::Yes(understanding) => {
+                for subgoal in &understanding.subgoals {
+                    let after: Vec<&str> =
+                        subgoal.after.iter().map(|&s| understanding.subgoals[s].id.as_str()).collect();
+                    let after = if after.is_empty() { String::new() } else { format!(" (after {})", after.join(", ")) };
+                    self.event(EventKind::Note, format!("{}: {}{after}", subgoal.id, subgoal.text));
+                }
+                for assumption in &understanding.assumptions {
+                    self.event(EventKind::Note, format!("assuming {assumption}"));
+                }
+                self.understanding = Some(understanding);
+                if self.roster.lost() == self.granted_lost { self.allocate() } else { self.begin_epoch() }
+            }
+            Understood::Ask(clarification) => {
+                let question = clarification.question.clone();
+                let ask = serde_json::to_value(&clarification).ok();
+                self.finish_with(OutcomeKind::NeedsClarification, Some(question), ask);
+            }
+            Understood::Failed(why) => self.finish(OutcomeKind::Error, Some(why)),
+        }
+    }
+
+    pub(crate) fn allocated(&mut self, allocation: Result<Allocation, NoAllocation>) {
+        let allocation = match allocation {
+            Ok(allocation) => allocation,
+            Err(NoAllocation::Infeasible(why)) => {
+                let lost: Vec<String> = self
+                    .roster
+                    .lost()
+                    .into_iter()
+                    .filter_map(|a| self.roster.lost_reason(a).map(|r| format!("{} {r}", self.name_of(a))))
+                    .collect();
+                let lost = if lost.is_empty() { String::new() } else { format!(" ({})", lost.join("; ")) };
+                return self.finish(OutcomeKind::Infeasible, Some(format!("{why}{lost}")));
+            }
+            Err(NoAllocation::GaveUp(why)) => return self.finish(OutcomeKind::GaveUp, Some(why)),
+        };
+        let Some(facts) = self.view.state() else { return };
+        self.lower_bound.get_or_insert(allocation.lower_bound);
+        let subgoals = self.understanding.as_ref().map_or(0, |u| u.subgoals.len());
+        for s in 0..subgoals {
+            let names: Vec<String> =
+                allocation.members_of(s).into_iter().map(|m| self.name_of(AgentId(m as u16))).collect();
+            if let (Some(u), false) = (&self.understanding, names.is_empty()) {
+                let text = format!("{} goes to {}", u.subgoals[s].id, names.join(" and "));
+                self.event(EventKind::Note, text);
+            }
+        }
+        let merger = Merger::new(world_state(&facts));
+        let round = Round::new(allocation, merger, self.directives.len());
+        self.enter(Phase::Planning(Box::new(round)));
+    }
+
+    pub(crate) fn combined(&mut self, plan: Result<TeamPlan, String>) {
+        let Phase::Combining(_, round) = self.take_phase() else { return };
+        let plan = match plan {
+            Ok(plan) => plan,
+            Err(why) => return self.finish(OutcomeKind::Error, Some(format!("the combined plan fails: {why}"))),
+        };
+        self.first_plan.get_or_insert((plan.makespan, plan.timeline.len()));
+        let bound = self.lower_bound.unwrap_or(0.0);
+        self.event(
+            EventKind::Note,
+            format!("{} steps, makespan {} (no plan is shorter than {bound})", plan.timeline.len(), plan.makespan),
+        );
+        self.allocation = Some(round.allocation.clone());
+        if self.config.solve_only {
+            let everything: Vec<StepIndex> =
+                plan.steps.iter().map(|s| StepIndex(s.len() as u32)).collect();
+            self.record(&plan, &everything);
+            self.planned_state = Some(round.merger.state.facts);
+            return self.finish(OutcomeKind::Success, None);
+        }
+        for agent in self.roster.alive().collect::<Vec<_>>() {
+            self.direct(agent, Order::Execute(plan.steps[agent.index()].clone()));
+        }
+        let following = Following {
+            allocation: round.allocation,
+            told: vec![StepIndex(0); plan.steps.len()],
+            plan,
+            last_progress: self.now,
+        };
+        self.enter(Phase::Executing(Box::new(following)));
+    }
+
+    pub(crate) fn lose(&mut self, agent: AgentId, reason: impl Into<String>) -> bool {
+        let reason = reason.into();
+        let new = self.roster.lose(agent, reason.clone());
+        if new {
+            self.fault(format!("{} {reason}", self.name_of(agent)));
+        }
+        new
+    }
+
+    pub(crate) fn command(&mut self, revision: Revision, command: Command) {
+        if self.commanded.is_some_and(|seen| revision <= seen) {
+            return;
+        }
+        self.commanded = Some(revision);
+        if command.stop {
+            self.outputs.push_back(Output::Finish);
+            return;
+        }
+        let mut news = false;
+        for agent in command.lost {
+            news |= self.lose(agent, "has died");
+        }
+        if news {
+            self.after_loss();
+        }
+    }
+
+    /// Somebody is gone: what was planned or allocated with it is void.
+    pub(crate) fn after_loss(&mut self) {
+        if matches!(self.phase, Phase::Finished) || self.nobody_left() {
+            return;
+        }
+        match self.phase {
+            Phase::Joining | Phase::Decomposing(_) | Phase::Finished => {}
+            Phase::Granting | Phase::Allocating(_) | Phase::Planning(_) | Phase::Combining(..)
+            | Phase::Executing(_) => self.replan("the team has changed"),
+        }
+    }
+
+    pub(crate) fn report(&mut self, agent: AgentId, revision: Revision, report: Report) {
+        self.roster.hear(agent, revision, report);
+    }
+
+    pub(crate) fn done(&mut self, job: JobId, done: CoordinatorDone) {
+        match (&self.phase, done) {
+            (Phase::Decomposing(id), CoordinatorDone::Understood(understood)) if *id == job => {
+                self.understood(*understood);
+            }
+            (Phase::Allocating(id), CoordinatorDone::Allocated(allocation)) if *id == job => {
+                self.allocated(allocation);
+            }
+            (Phase::Combining(id, _), CoordinatorDone::Combined(plan)) if *id == job => self.combined(plan),
+            // The answer to a question that is no longer asked.
+            (_, CoordinatorDone::Understood(_) | CoordinatorDone::Allocated(_) | CoordinatorDone::Combined(_)) => {}
+        }
+    }
+}

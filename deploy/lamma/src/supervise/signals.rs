@@ -1,0 +1,59 @@
+//! Ctrl-C and its like as bytes in a pipe, to be polled.
+
+use std::io::{self, Read};
+use std::os::fd::{AsFd, BorrowedFd};
+use std::os::unix::net::UnixStream;
+
+use signal_hook::SigId;
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::low_level::{emulate_default_handler, pipe, signal_name, unregister};
+
+/// What asks a run to end.
+const ENDING: [i32; 3] = [SIGINT, SIGTERM, SIGHUP];
+
+/// These signals of this process, for as long as it lives.
+pub(super) struct Signals {
+    pipe: UnixStream,
+    handlers: Vec<SigId>,
+}
+
+impl Signals {
+    pub(super) fn new() -> io::Result<Signals> {
+        let (pipe, write) = UnixStream::pair()?;
+        pipe.set_nonblocking(true)?;
+        let mut signals = Signals { pipe, handlers: Vec::new() };
+        for signal in ENDING {
+            signals.handlers.push(pipe::register(signal, write.try_clone()?)?);
+        }
+        Ok(signals)
+    }
+
+    /// How many have come since the last look.
+    pub(super) fn take(&mut self) -> usize {
+        self.pipe.read(&mut [0; 64]).unwrap_or(0)
+    }
+}
+
+impl AsFd for Signals {
+    fn as_fd(&self) -> BorrowedFd<'_> {
+        self.pipe.as_fd()
+    }
+}
+
+impl Drop for Signals {
+    fn drop(&mut self) {
+        for handler in self.handlers.drain(..) {
+            unregister(handler);
+        }
+    }
+}
+
+/// Ends this process as SIGINT does where nobody handles it.
+pub(super) fn give_up() {
+    let _ = emulate_default_handler(SIGINT);
+}
+
+/// `SIGKILL` for 9.
+pub(super) fn name(signal: i32) -> Option<&'static str> {
+    signal_name(signal)
+}

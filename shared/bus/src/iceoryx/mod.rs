@@ -1,0 +1,62 @@
+//! Processes of one host over shared memory (iceoryx2).
+//!
+//! - One service per topic: one publisher, history 1, buffer 1, safe overflow. The newest statement
+//!   replaces the one before it, nothing ever waits for a reader, and a late joiner gets the newest.
+//! - One event service per node, its *bell*. Who publishes rings its readers; the event id says which
+//!   topic, so a node with thousands of topics looks only at what has changed. A node that joins rings the
+//!   peers it exchanges something with, and publishers then hand it what they last said.
+//! - All limits follow from the size of the team. All names carry the run's tag ([`Scope`]), so runs never
+//!   meet, and what a crash leaves is found by its tag ([`sweep_stale`]).
+//! - Nobody but the [`Run`] cleans up after the dead: with every process doing so, starting a thousand of
+//!   them takes minutes.
+
+mod bell;
+mod endpoint;
+mod scope;
+mod services;
+mod sweep;
+
+use std::path::PathBuf;
+
+use lamma_protocol::Node;
+use thiserror::Error;
+
+pub use endpoint::Endpoint;
+pub use scope::{Scope, ScopeParseError};
+pub use services::Run;
+pub use sweep::{SweepError, sweep, sweep_stale};
+
+/// Why the shared memory of a run, or an endpoint on it, could not be opened.
+#[derive(Debug, Error)]
+pub enum OpenError {
+    /// The team has no such member.
+    #[error("no {node} in a team of {agents}: check the agent's index against the roster")]
+    NoSuchNode {
+        /// Who.
+        node: Node,
+        /// The size of the team.
+        agents: u16,
+    },
+    /// No folder can hold the run's files.
+    #[error(
+        "cannot create a folder for the run's shared memory in any of {tried:?} ({reason}): make one writable"
+    )]
+    NoRoot {
+        /// Where it was tried.
+        tried: Vec<PathBuf>,
+        /// What the system said last.
+        reason: String,
+    },
+    /// The run is not there, or something of it cannot be opened.
+    #[error(
+        "cannot open {what} of run {tag} ({reason}): has the run ended? A new run starts with new memory"
+    )]
+    Service {
+        /// The service or port.
+        what: String,
+        /// Which run.
+        tag: String,
+        /// What the transport said.
+        reason: String,
+    },
+}

@@ -1,0 +1,72 @@
+//! What the processes of a run need from the operating system: a child must never outlive its parent,
+//! inherit nothing by accident, and have descriptors enough.
+#![expect(unsafe_code, reason = "between fork and exec only the C interface can be used")]
+
+use std::io::{self, Read};
+use std::os::unix::process::CommandExt;
+use std::process::Command;
+
+use rustix::io::Errno;
+use rustix::process::{Pid, Resource, Rlimit, Signal};
+
+/// How a process ends when what it belongs to is gone.
+const ORPHANED: i32 = 30;
+
+/// Prepares `command` to start a member of a run: in a process group of its own (a Ctrl-C at the terminal
+/// reaches only the launcher, which ends the others in order), killed by the kernel when the *thread* that
+/// spawns it ends, and without any descriptor of the parent beyond the standard three.
+pub fn tie_to_parent(command: &mut Command) -> &mut Command {
+    let parent = Pid::from_raw(std::process::id().cast_signed());
+    command.process_group(0);
+    // SAFETY: runs in the child between fork and exec, where only async-signal-safe functions may be
+    // called and nothing may be allocated: it makes three system calls and builds errors from numbers.
+    unsafe {
+        command.pre_exec(move || {
+            rustix::process::set_parent_process_death_signal(Some(Signal::KILL))?;
+            // The parent may have died before the line above.
+            if rustix::process::getppid() != parent {
+                return Err(Errno::SRCH.into());
+            }
+            // The transport's files are not close-on-exec. An old kernel without this call costs
+            // descriptors, not correctness.
+            libc::syscall(libc::SYS_close_range, 3u32, u32::MAX, libc::CLOSE_RANGE_CLOEXEC);
+            Ok(())
+        })
+    }
+}
+
+/// Ends this process when its standard input closes: the launcher holds the other end, so this is the
+/// second line of defence after [`tie_to_parent`], for where that has no effect.
+pub fn exit_when_stdin_closes() -> io::Result<()> {
+    let watch = || {
+        let mut stdin = io::stdin().lock();
+        let mut byte = [0];
+        loop {
+            match stdin.read(&mut byte) {
+                Ok(1..) => {}
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Ok(0) | Err(_) => {
+                    tracing::error!("the launcher has gone: this process ends");
+                    std::process::exit(ORPHANED);
+                }
+            }
+        }
+    };
+    std::thread::Builder::new().name("orphan-watch".into()).spawn(watch).map(|_| ())
+}
+
+/// Raises the limit on open files as far as this user may, and gives it. A transport that runs out of
+/// descriptors reaches only some of its readers, and says nothing: compare with
+/// [`descriptors_needed`].
+pub fn raise_open_files_limit() -> io::Result<u64> {
+    let limit = rustix::process::getrlimit(Resource::Nofile);
+    rustix::process::setrlimit(Resource::Nofile, Rlimit { current: limit.maximum, maximum: limit.maximum })?;
+    Ok(limit.maximum.unwrap_or(u64::MAX))
+}
+
+/// How many open files the busiest process of a team of `agents` needs.
+pub fn descriptors_needed(agents: u16) -> u64 {
+    // Per agent the coordinator and the simulator each hold two topics, three descriptors at most for
+    // both ends, and a bell; the launcher holds every service, a pipe, a log and a process handle.
+    256 + 16 * u64::from(agents)
+}

@@ -1,0 +1,396 @@
+//! From propositions to finite-domain variables packed into words.
+
+use super::GroundError;
+use super::propositional::{Ground, GroundOperator, Lit, Stretch};
+use super::relation::Relation;
+use crate::lifted::Lifted;
+use crate::task::{AtomText, Axiom, ConditionalEffect, Fact, FactId, Names, Operator, Task, Variable, Write};
+
+/// Builds the task. `groups` are sets of atoms of which at most one ever holds; each becomes one variable.
+pub(crate) fn encode(
+    lifted: Lifted,
+    relations: &[Relation],
+    ground: Ground,
+    groups: &[Vec<u32>],
+) -> Result<Task, GroundError> {
+    let mut encoder = Encoder {
+        task: Task { has_costs: lifted.has_costs, ..Task::default() },
+        atoms: Vec::new(),
+        ground: &ground,
+    };
+    encoder.names(lifted, relations);
+    if !ground.impossible.is_empty() {
+        encoder.impossible();
+        return Ok(encoder.task);
+    }
+    encoder.variables(groups);
+    encoder.initial_state();
+    encoder.operators();
+    encoder.axioms()?;
+    let goal: Vec<FactId> = ground.lits(ground.goal).iter().map(|&lit| encoder.fact(lit)).collect();
+    let Encoder { mut task, .. } = encoder;
+    task.goal = goal;
+    let mut init = std::mem::take(&mut task.init);
+    task.evaluate_axioms(&mut init);
+    task.init = init;
+    Ok(task)
+}
+
+/// Where an atom is encoded: as a value of a group's variable, as a variable of its own, or as both (a
+/// condition that the atom does *not* hold is a single fact only of its own variable).
+#[derive(Clone, Copy, Default)]
+struct Place {
+    group: Option<FactId>,
+    /// The fact that it does not hold; the fact that it does is the next.
+    own: Option<FactId>,
+}
+
+struct Encoder<'a> {
+    task: Task,
+    atoms: Vec<Place>,
+    ground: &'a Ground,
+}
+
+impl Encoder<'_> {
+    fn names(&mut self, lifted: Lifted, relations: &[Relation]) {
+        let ground = self.ground;
+        let mut names = Names {
+            objects: lifted.symbols.objects,
+            predicates: lifted.symbols.predicates.into_iter().map(|p| p.name).collect(),
+            schemas: lifted.schemas.into_iter().map(|s| (s.name, s.params)).collect(),
+            atoms: Vec::with_capacity(ground.names.len()),
+            args: ground.args.clone(),
+        };
+        let mut explained: Vec<Option<String>> = vec![None; names.predicates.len()];
+        for (predicate, text) in lifted.explained {
+            explained[predicate as usize] = Some(text);
+        }
+        for name in &ground.names {
+            names.atoms.push(match name {
+                None => AtomText::Condition("(a quantified condition)".into()),
+                Some(name) => match &explained[name.predicate as usize] {
+                    Some(text) => AtomText::Condition(text.clone()),
+                    None => {
+                        let start = names.args.len() as u32;
+                        names.args.extend_from_slice(relations[name.predicate as usize].row(name.row));
+                        AtomText::Atom { predicate: name.predicate, args: start..names.args.len() as u32 }
+                    }
+                },
+            });
+        }
+        self.task.names = names;
+    }
+
+    /// The task without solution: only the reasons remain.
+    fn impossible(&mut self) {
+        let ground = self.ground;
+        self.task.impossible = if ground.unreachable_goals.is_empty() {
+            ground.impossible.clone()
+        } else {
+            // Facts for the unreachable atoms, only to print them.
+            let texts = ground.unreachable_goals.iter().map(|lit| {
+                let fact = Fact {
+                    variable: 0,
+                    word: 0,
+                    mask: 0,
+                    bits: 0,
+                    atom: Some((lit.atom() as u32, lit.holds())),
+                };
+                let probe = Task { facts: vec![fact], names: Names::default(), ..Task::default() };
+                (probe, lit)
+            });
+            let mut out = Vec::new();
+            for (mut probe, _) in texts {
+                std::mem::swap(&mut probe.names, &mut self.task.names);
+                out.push(probe.fact_text(FactId(0)));
+                std::mem::swap(&mut probe.names, &mut self.task.names);
+            }
+            out
+        };
+    }
+
+    fn variables(&mut self, groups: &[Vec<u32>]) {
+        let ground = self.ground;
+        let atoms = ground.names.len();
+        self.atoms = vec![Place::default(); atoms];
+        let mut asked_false = vec![false; atoms];
+        let conditions = ground.operators.iter().map(|o| o.precondition);
+        let conditions = conditions
+            .chain(ground.conditional.iter().map(|e| e.condition))
+            .chain(ground.rules.iter().map(|r| r.body))
+            .chain([ground.goal]);
+        for stretch in conditions {
+            for lit in ground.lits(stretch).iter().filter(|lit| !lit.holds()) {
+                asked_false[lit.atom()] = true;
+            }
+        }
+        let mut layout = Layout::default();
+        for group in groups {
+            let values = group.iter().map(|&atom| Some((atom, true))).chain([None]);
+            let first = layout.add(&mut self.task, values);
+            for (value, &atom) in group.iter().enumerate() {
+                self.atoms[atom as usize].group = Some(FactId(first.0 + value as u32));
+            }
+        }
+        for derived in [false, true] {
+            for atom in 0..atoms {
+                let wanted = ground.relevant[atom] && ground.derived[atom] == derived;
+                if wanted && (self.atoms[atom].group.is_none() || asked_false[atom]) {
+                    let atom = atom as u32;
+                    let first =
+                        layout.add(&mut self.task, [Some((atom, false)), Some((atom, true))].into_iter());
+                    self.atoms[atom as usize].own = Some(first);
+                }
+            }
+            if !derived {
+                self.task.primary_variables = self.task.variables.len();
+            }
+        }
+        self.task.words = layout.words.max(1);
+        let mut masks = vec![0u64; self.task.words];
+        for variable in &self.task.variables[self.task.primary_variables..] {
+            masks[variable.word as usize] |= variable.mask << variable.shift;
+        }
+        self.task.derived_masks = masks.into_iter().enumerate().filter(|&(_, mask)| mask != 0).collect();
+    }
+
+    fn initial_state(&mut self) {
+        let mut init = vec![0; self.task.words];
+        // A group's last value means that none of its atoms holds.
+        for variable in &self.task.variables {
+            let last = FactId(variable.first.0 + variable.size - 1);
+            if self.task.facts[last.index()].atom.is_none() {
+                self.task.facts[last.index()].set(&mut init);
+            }
+        }
+        for (atom, place) in self.atoms.iter().enumerate() {
+            let holds = self.ground.init[atom] && !self.ground.derived[atom];
+            for fact in self.facts_to_set(*place, holds).into_iter().flatten() {
+                self.task.facts[fact.index()].set(&mut init);
+            }
+        }
+        self.task.init = init;
+    }
+
+    /// The facts that make an atom true, or false where it is a variable of its own.
+    fn facts_to_set(&self, place: Place, holds: bool) -> [Option<FactId>; 2] {
+        let own = place.own.map(|first| FactId(first.0 + u32::from(holds)));
+        [own, place.group.filter(|_| holds)]
+    }
+
+    /// The fact that a literal is as a condition.
+    fn fact(&self, lit: Lit) -> FactId {
+        let place = self.atoms[lit.atom()];
+        let own = place.own.map(|first| FactId(first.0 + u32::from(lit.holds())));
+        let fact = if lit.holds() { place.group.or(own) } else { own };
+        fact.expect("every atom that a condition asks for is relevant and has been placed")
+    }
+
+    fn conditions(&self, stretch: Stretch) -> Vec<FactId> {
+        let mut facts: Vec<FactId> = self.ground.lits(stretch).iter().map(|&lit| self.fact(lit)).collect();
+        facts.sort_unstable();
+        facts.dedup();
+        facts
+    }
+
+    /// Whether facts ask for two values of one variable.
+    fn contradictory(&self, facts: &[FactId]) -> bool {
+        facts.windows(2).any(|pair| self.variable(pair[0]) == self.variable(pair[1]))
+    }
+
+    fn variable(&self, fact: FactId) -> u32 {
+        self.task.facts[fact.index()].variable
+    }
+
+    /// The value of a group's variable that means none of its atoms holds.
+    fn none_of(&self, fact: FactId) -> FactId {
+        let variable = &self.task.variables[self.variable(fact) as usize];
+        FactId(variable.first.0 + variable.size - 1)
+    }
+
+    fn operators(&mut self) {
+        let ground = self.ground;
+        let scale = cost_scale(&ground.operators);
+        for operator in &ground.operators {
+            let precondition = self.conditions(operator.precondition);
+            if self.contradictory(&precondition) {
+                continue;
+            }
+            let effects = self.effects(operator, &precondition);
+            self.task.operators.push(Operator {
+                cost: operator.cost,
+                units: (operator.cost * scale).round().min(1e9) as u32,
+                schema: operator.schema,
+                args: operator.args,
+            });
+            self.task.preconditions.push_row(precondition);
+            for (condition, fact) in effects.conditional {
+                let row = self.task.effect_conditions.len() as u32;
+                self.task.effect_conditions.push_row(condition);
+                self.task.conditional.push(ConditionalEffect { condition: row, fact });
+            }
+            self.task.conditional.end_row();
+            let writes = self.writes(&effects.plain);
+            self.task.writes.push_row(writes);
+            self.task.effects.push_row(effects.plain);
+        }
+    }
+
+    /// An operator's effects on variables. PDDL's deletes before adds becomes: where an operator adds an
+    /// atom of a group, deletes of the group's other atoms are already said.
+    fn effects(&self, operator: &GroundOperator, precondition: &[FactId]) -> Effects {
+        let lits = self.ground.lits(operator.effects);
+        let mut effects = Effects::default();
+        for &lit in lits.iter().filter(|lit| lit.holds()) {
+            effects.plain.extend(self.facts_to_set(self.atoms[lit.atom()], true).into_iter().flatten());
+        }
+        for &lit in lits.iter().filter(|lit| !lit.holds()) {
+            self.delete(lit.atom(), &[], precondition, &mut effects);
+        }
+        let (mut deletes, mut adds) = (Vec::new(), Vec::new());
+        for effect in &self.ground.conditional[operator.conditional.range()] {
+            let atom = effect.effect.atom();
+            if lits.contains(&Lit::new(atom as u32, true)) {
+                continue;
+            }
+            (if effect.effect.holds() { &mut adds } else { &mut deletes }).push(effect);
+        }
+        for effect in deletes {
+            let condition = self.conditions(effect.condition);
+            if !self.contradictory(&condition) {
+                self.delete(effect.effect.atom(), &condition, precondition, &mut effects);
+            }
+        }
+        for effect in adds {
+            let condition = self.conditions(effect.condition);
+            if !self.contradictory(&condition) {
+                for fact in self.facts_to_set(self.atoms[effect.effect.atom()], true).into_iter().flatten() {
+                    effects.conditional.push((condition.clone(), fact));
+                }
+            }
+        }
+        for (condition, _) in &mut effects.conditional {
+            condition.retain(|fact| precondition.binary_search(fact).is_err());
+        }
+        effects.plain.sort_unstable();
+        effects.plain.dedup();
+        effects
+    }
+
+    fn delete(&self, atom: usize, condition: &[FactId], precondition: &[FactId], effects: &mut Effects) {
+        let place = self.atoms[atom];
+        let mut happens = |condition: Vec<FactId>, fact: FactId| {
+            if condition.is_empty() {
+                effects.plain.push(fact);
+            } else {
+                effects.conditional.push((condition, fact));
+            }
+        };
+        if let Some(own) = place.own {
+            happens(condition.to_vec(), own);
+        }
+        let Some(value) = place.group else { return };
+        let variable = self.variable(value);
+        let same = |fact: &&FactId| self.variable(**fact) == variable;
+        let known = condition.iter().find(same).or_else(|| precondition.iter().find(same));
+        let none = self.none_of(value);
+        match known {
+            Some(&known) if known != value => return,
+            Some(_) => happens(condition.to_vec(), none),
+            None => {
+                let mut condition = condition.to_vec();
+                condition.push(value);
+                condition.sort_unstable();
+                happens(condition, none);
+            }
+        }
+        effects.settle_group(self, variable, none);
+    }
+
+    fn writes(&self, plain: &[FactId]) -> Vec<Write> {
+        let mut writes: Vec<Write> = Vec::new();
+        for fact in plain {
+            let fact = &self.task.facts[fact.index()];
+            match writes.iter_mut().find(|write| write.word == fact.word) {
+                Some(write) => {
+                    write.clear |= fact.mask;
+                    write.set |= fact.bits;
+                }
+                None => writes.push(Write { word: fact.word, clear: fact.mask, set: fact.bits }),
+            }
+        }
+        writes
+    }
+
+    fn axioms(&mut self) -> Result<(), GroundError> {
+        let rules = &self.ground.rules;
+        let layering = super::layers::layers(self.ground)?;
+        self.task.recursive_axioms = layering.recursive;
+        for layer in layering.layers {
+            let start = self.task.axioms.len();
+            for rule in layer {
+                let rule = rules[rule as usize];
+                let body = self.conditions(rule.body);
+                if self.contradictory(&body) {
+                    continue;
+                }
+                let head = self.fact(Lit::new(rule.head, true));
+                self.task.axioms.push(Axiom { head, body: self.task.axiom_bodies.len() as u32 });
+                self.task.axiom_bodies.push_row(body);
+            }
+            self.task.axiom_layers.push(start..self.task.axioms.len());
+        }
+        Ok(())
+    }
+}
+
+#[derive(Default)]
+struct Effects {
+    plain: Vec<FactId>,
+    conditional: Vec<(Vec<FactId>, FactId)>,
+}
+
+impl Effects {
+    /// If the operator gives the group's variable a value in any case, it does not become "none".
+    fn settle_group(&mut self, encoder: &Encoder<'_>, variable: u32, none: FactId) {
+        if self.plain.iter().any(|&fact| fact != none && encoder.variable(fact) == variable) {
+            self.plain.retain(|&fact| fact != none);
+            self.conditional.retain(|&(_, fact)| fact != none);
+        }
+    }
+}
+
+/// Packs variables into words; none crosses a word.
+#[derive(Default)]
+struct Layout {
+    words: usize,
+    used: u32,
+}
+
+impl Layout {
+    fn add(&mut self, task: &mut Task, values: impl Iterator<Item = Option<(u32, bool)>>) -> FactId {
+        let first = FactId(task.facts.len() as u32);
+        let variable = task.variables.len() as u32;
+        for atom in values {
+            task.facts.push(Fact { variable, word: 0, mask: 0, bits: 0, atom });
+        }
+        let size = task.facts.len() as u32 - first.0;
+        let bits = u32::BITS - (size - 1).leading_zeros();
+        if self.words == 0 || self.used + bits > u64::BITS {
+            self.words += 1;
+            self.used = 0;
+        }
+        let (word, shift, mask) = (self.words as u32 - 1, self.used, (1u64 << bits) - 1);
+        self.used += bits;
+        for (value, fact) in task.facts[first.index()..].iter_mut().enumerate() {
+            *fact = Fact { word, mask: mask << shift, bits: (value as u64) << shift, ..*fact };
+        }
+        task.variables.push(Variable { first, size, word, shift, mask });
+        first
+    }
+}
+
+/// What costs are multiplied with to become whole numbers.
+fn cost_scale(operators: &[GroundOperator]) -> f64 {
+    if operators.iter().all(|operator| operator.cost.fract() == 0.0) { 1.0 } else { 1000.0 }
+}

@@ -1,0 +1,259 @@
+//! Mutex groups: sets of atoms of which at most one ever holds, such as the places of one truck.
+//!
+//! Candidates are lifted as in Helmert 2009 ("Concise finite-domain representations for PDDL planning
+//! tasks", section 5): predicates that share key arguments, each with at most one counted argument. Unlike
+//! there, a candidate is checked on the ground operators: every operator that adds an atom of a group
+//! deletes another one of it that it asked for. One that fails is refined by what the operator deletes.
+
+use std::collections::{BTreeSet, BinaryHeap, VecDeque};
+
+use super::propositional::{AtomName, Ground, GroundOperator, Lit};
+use super::relation::Relation;
+use crate::id_table::{IdTable, Slot, hash_words};
+
+/// At most so many candidates are looked at.
+const MAX_CANDIDATES: usize = 300;
+const NONE: u32 = u32::MAX;
+
+/// A predicate's part in a candidate: which arguments are the key, in the candidate's order. At most one
+/// argument is not: the counted one.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Part {
+    predicate: u32,
+    key: Vec<usize>,
+}
+
+type Candidate = Vec<Part>;
+
+/// Finds disjoint mutex groups among the relevant atoms, large ones first.
+pub(crate) fn mutex_groups(ground: &Ground, relations: &[Relation]) -> Vec<Vec<u32>> {
+    let atoms = Atoms { ground, relations };
+    let samples = samples(ground);
+    let mut open: VecDeque<Candidate> = atoms.first_candidates();
+    let mut seen: BTreeSet<Candidate> = open.iter().cloned().collect();
+    let mut looked_at = 0;
+    let mut groups = Vec::new();
+    while let Some(candidate) = open.pop_front() {
+        looked_at += 1;
+        if looked_at > MAX_CANDIDATES {
+            break;
+        }
+        let instances = atoms.instances(&candidate);
+        // One operator of each action shows most candidates wrong at once.
+        let sampled = samples.iter().map(|&at| &ground.operators[at as usize]);
+        let wrong = sampled.chain(&ground.operators).find(|operator| !instances.balanced(ground, operator));
+        match wrong {
+            None => groups.extend(instances.groups(ground)),
+            Some(operator) => {
+                for refined in atoms.refine(&candidate, &instances, operator) {
+                    if seen.insert(refined.clone()) {
+                        open.push_back(refined);
+                    }
+                }
+            }
+        }
+    }
+    choose(groups, ground.names.len())
+}
+
+/// The first operator of each action.
+fn samples(ground: &Ground) -> Vec<u32> {
+    let mut seen = BTreeSet::new();
+    (0..ground.operators.len() as u32)
+        .filter(|&at| seen.insert(ground.operators[at as usize].schema))
+        .collect()
+}
+
+/// Picks disjoint groups, at each step the one with the most atoms not yet covered.
+fn choose(groups: Vec<Vec<u32>>, atoms: usize) -> Vec<Vec<u32>> {
+    let mut covered = vec![false; atoms];
+    let mut heap: BinaryHeap<(usize, std::cmp::Reverse<usize>)> =
+        groups.iter().enumerate().map(|(at, group)| (group.len(), std::cmp::Reverse(at))).collect();
+    let mut chosen = Vec::new();
+    while let Some((size, at)) = heap.pop() {
+        let rest: Vec<u32> = groups[at.0].iter().copied().filter(|&atom| !covered[atom as usize]).collect();
+        if rest.len() < 2 {
+            continue;
+        }
+        if rest.len() < size {
+            heap.push((rest.len(), at));
+            continue;
+        }
+        rest.iter().for_each(|&atom| covered[atom as usize] = true);
+        chosen.push(rest);
+    }
+    chosen
+}
+
+struct Atoms<'a> {
+    ground: &'a Ground,
+    relations: &'a [Relation],
+}
+
+/// A candidate's groups: the key that each atom belongs to.
+struct Instances {
+    /// By atom; `NONE` for atoms of other predicates.
+    key_of: Vec<u32>,
+    /// How many atoms of each key hold at first.
+    weight: Vec<u32>,
+}
+
+impl Atoms<'_> {
+    fn args(&self, name: AtomName) -> &[u32] {
+        self.relations[name.predicate as usize].row(name.row)
+    }
+
+    fn usable(&self, atom: usize) -> Option<AtomName> {
+        self.ground.names[atom].filter(|_| self.ground.relevant[atom] && !self.ground.derived[atom])
+    }
+
+    fn first_candidates(&self) -> VecDeque<Candidate> {
+        let mut predicates = BTreeSet::new();
+        for atom in 0..self.ground.names.len() {
+            if let Some(name) = self.usable(atom) {
+                predicates.insert((name.predicate, self.args(name).len()));
+            }
+        }
+        let mut candidates = VecDeque::new();
+        for (predicate, arity) in predicates {
+            for counted in (0..arity).map(Some).chain([None]) {
+                let key = (0..arity).filter(|&at| Some(at) != counted).collect();
+                candidates.push_back(vec![Part { predicate, key }]);
+            }
+        }
+        candidates
+    }
+
+    fn instances(&self, candidate: &Candidate) -> Instances {
+        let mut instances = Instances { key_of: vec![NONE; self.ground.names.len()], weight: Vec::new() };
+        let (mut keys, mut table, mut key) = (Vec::<Vec<u32>>::new(), IdTable::default(), Vec::new());
+        for atom in 0..self.ground.names.len() {
+            let Some(name) = self.usable(atom) else { continue };
+            let Some(part) = candidate.iter().find(|part| part.predicate == name.predicate) else { continue };
+            key.clear();
+            let args = self.args(name);
+            key.extend(part.key.iter().map(|&at| args[at]));
+            let hash = hash_words(&key);
+            let id = match table.find(hash, |id| keys[id as usize] == key) {
+                Slot::Found(id) => id,
+                Slot::Free(at) => {
+                    let id = keys.len() as u32;
+                    keys.push(key.clone());
+                    instances.weight.push(0);
+                    table.insert(at, hash, id, |id| hash_words(&keys[id as usize]));
+                    id
+                }
+            };
+            instances.key_of[atom] = id;
+            instances.weight[id as usize] += u32::from(self.ground.init[atom]);
+        }
+        instances
+    }
+
+    /// Candidates with one more predicate, of an atom that `operator` asks for and deletes.
+    fn refine(
+        &self,
+        candidate: &Candidate,
+        instances: &Instances,
+        operator: &GroundOperator,
+    ) -> Vec<Candidate> {
+        let ground = self.ground;
+        let Some(added) = instances.unbalanced_add(ground, operator) else { return Vec::new() };
+        let Some(name) = ground.names[added] else { return Vec::new() };
+        let Some(part) = candidate.iter().find(|part| part.predicate == name.predicate) else {
+            return Vec::new();
+        };
+        let key: Vec<u32> = part.key.iter().map(|&at| self.args(name)[at]).collect();
+        let mut refined = Vec::new();
+        for lit in ground.lits(operator.effects).iter().filter(|lit| !lit.holds()) {
+            if ground.lits(operator.precondition).binary_search(&lit.negated()).is_err() {
+                continue;
+            }
+            let Some(deleted) = self.usable(lit.atom()) else { continue };
+            if candidate.iter().any(|part| part.predicate == deleted.predicate) {
+                continue;
+            }
+            for positions in key_positions(self.args(deleted), &key) {
+                let mut larger = candidate.clone();
+                larger.push(Part { predicate: deleted.predicate, key: positions });
+                larger.sort();
+                refined.push(larger);
+            }
+        }
+        refined
+    }
+}
+
+/// The ways to find all of `key` among `args` with at most one argument left over.
+fn key_positions(args: &[u32], key: &[u32]) -> Vec<Vec<usize>> {
+    if args.len() < key.len() || args.len() > key.len() + 1 {
+        return Vec::new();
+    }
+    let mut ways: Vec<Vec<usize>> = vec![Vec::new()];
+    for object in key {
+        let mut next = Vec::new();
+        for way in &ways {
+            for at in (0..args.len()).filter(|at| args[*at] == *object && !way.contains(at)) {
+                next.push([&way[..], &[at]].concat());
+            }
+        }
+        ways = next;
+    }
+    ways
+}
+
+impl Instances {
+    fn balanced(&self, ground: &Ground, operator: &GroundOperator) -> bool {
+        self.unbalanced_add(ground, operator).is_none()
+    }
+
+    /// An atom that the operator adds without deleting another of its group that held before. A group that
+    /// more than one atom of holds at first is not looked at: it is no mutex group anyway.
+    fn unbalanced_add(&self, ground: &Ground, operator: &GroundOperator) -> Option<usize> {
+        let effects = ground.lits(operator.effects);
+        let conditional = &ground.conditional[operator.conditional.range()];
+        let precondition = ground.lits(operator.precondition);
+        let watched = |lit: Lit| {
+            let key = self.key_of[lit.atom()];
+            lit.holds() && key != NONE && self.weight[key as usize] == 1
+        };
+        let adds =
+            || effects.iter().map(|&lit| (lit, None)).chain(conditional.iter().map(|e| (e.effect, Some(e))));
+        for (add, effect) in adds().filter(|&(lit, _)| watched(lit)) {
+            let key = self.key_of[add.atom()];
+            // Two adds to one group would need disjoint conditions; that is not looked into.
+            if adds().any(|(other, _)| other != add && other.holds() && self.key_of[other.atom()] == key) {
+                return Some(add.atom());
+            }
+            let condition = effect.map_or(&[][..], |effect| ground.lits(effect.condition));
+            let held = || precondition.iter().chain(condition);
+            if held().any(|&lit| lit == add) {
+                continue;
+            }
+            let deleted = |lit: &Lit| {
+                effects.binary_search(&lit.negated()).is_ok()
+                    || conditional.iter().any(|other| {
+                        other.effect == lit.negated()
+                            && ground.lits(other.condition).iter().all(|c| held().any(|h| h == c))
+                    })
+            };
+            if !held().any(|lit| lit.holds() && self.key_of[lit.atom()] == key && deleted(lit)) {
+                return Some(add.atom());
+            }
+        }
+        None
+    }
+
+    /// The groups of which exactly one atom holds at first.
+    fn groups(&self, ground: &Ground) -> Vec<Vec<u32>> {
+        let mut groups = vec![Vec::new(); self.weight.len()];
+        for atom in 0..ground.names.len() {
+            let key = self.key_of[atom];
+            if key != NONE && self.weight[key as usize] == 1 {
+                groups[key as usize].push(atom as u32);
+            }
+        }
+        groups.retain(|group| group.len() >= 2);
+        groups
+    }
+}

@@ -1,0 +1,223 @@
+//! What can be reached when deletes are ignored: the fixpoint of the task's rules, computed fact by fact
+//! (semi-naive; Helmert 2009, section 6.3).
+
+use std::collections::VecDeque;
+
+use super::join::{Join, Trigger};
+use super::relation::Relation;
+use super::{GroundError, GroundLimits};
+use crate::lifted::{Change, Head, Lifted, LiftedAtom, Role, Term};
+
+/// The fixpoint.
+pub(crate) struct Reached {
+    /// The facts of each predicate.
+    pub relations: Vec<Relation>,
+    /// For each rule its instances, as values of the body's bound variables, one after the other.
+    pub instances: Vec<Vec<u32>>,
+    /// How many instances each rule has.
+    pub counts: Vec<usize>,
+}
+
+/// Computes the fixpoint.
+pub(crate) fn reach(lifted: &Lifted, limits: &GroundLimits) -> Result<Reached, GroundError> {
+    let mut fixpoint = Fixpoint::new(lifted, limits);
+    fixpoint.load();
+    for rule in 0..lifted.rules.len() {
+        if !fixpoint.is_late(rule) && fixpoint.first_changing_atom(rule).is_none() {
+            fixpoint.fire(rule, None)?;
+        }
+    }
+    while let Some((predicate, row)) = fixpoint.queue.pop_front() {
+        fixpoint.relations[predicate as usize].show_next();
+        for at in 0..fixpoint.triggers[predicate as usize].len() {
+            let (rule, position) = fixpoint.triggers[predicate as usize][at];
+            fixpoint.fire(rule as usize, Some(Trigger { position: position as usize, predicate, row }))?;
+        }
+    }
+    for rule in 0..lifted.rules.len() {
+        if fixpoint.is_late(rule) {
+            fixpoint.fire(rule, None)?;
+        }
+    }
+    let Fixpoint { relations, instances, counts, .. } = fixpoint;
+    Ok(Reached { relations, instances, counts })
+}
+
+struct Fixpoint<'a> {
+    lifted: &'a Lifted,
+    limits: &'a GroundLimits,
+    relations: Vec<Relation>,
+    instances: Vec<Vec<u32>>,
+    counts: Vec<usize>,
+    /// Where each predicate occurs: rule and position.
+    triggers: Vec<Vec<(u32, u32)>>,
+    queue: VecDeque<(u32, u32)>,
+    facts: usize,
+    total: usize,
+    steps_left: u64,
+    binding: Vec<u32>,
+    found: Vec<u32>,
+}
+
+impl<'a> Fixpoint<'a> {
+    fn new(lifted: &'a Lifted, limits: &'a GroundLimits) -> Self {
+        let symbols = &lifted.symbols;
+        let objects = symbols.objects.len();
+        let mut fixpoint = Fixpoint {
+            lifted,
+            limits,
+            relations: symbols.predicates.iter().map(|p| Relation::new(p.arity, objects)).collect(),
+            instances: vec![Vec::new(); lifted.rules.len()],
+            counts: vec![0; lifted.rules.len()],
+            triggers: vec![Vec::new(); symbols.predicates.len()],
+            queue: VecDeque::new(),
+            facts: 0,
+            total: 0,
+            steps_left: limits.steps,
+            binding: Vec::new(),
+            found: Vec::new(),
+        };
+        for (index, rule) in lifted.rules.iter().enumerate() {
+            if fixpoint.is_late(index) {
+                continue;
+            }
+            for (position, atom) in rule.body.atoms.iter().enumerate() {
+                if fixpoint.changes(atom.predicate) {
+                    fixpoint.triggers[atom.predicate as usize].push((index as u32, position as u32));
+                }
+            }
+        }
+        fixpoint
+    }
+
+    fn changes(&self, predicate: u32) -> bool {
+        self.lifted.symbols.predicates[predicate as usize].role != Role::Static
+    }
+
+    /// Rules that reach no fact are joined once, at the end.
+    fn is_late(&self, rule: usize) -> bool {
+        match self.lifted.rules[rule].head {
+            Head::Effect { action, effect } => {
+                !matches!(self.lifted.schemas[action as usize].conditional[effect as usize], Change::Add(_))
+            }
+            Head::Act { .. } | Head::Derived(_) => false,
+        }
+    }
+
+    fn first_changing_atom(&self, rule: usize) -> Option<usize> {
+        self.lifted.rules[rule].body.atoms.iter().position(|atom| self.changes(atom.predicate))
+    }
+
+    fn load(&mut self) {
+        for (predicate, args) in &self.lifted.init {
+            let relation = &mut self.relations[*predicate as usize];
+            let Some(row) = relation.insert(args) else { continue };
+            if self.lifted.symbols.predicates[*predicate as usize].role == Role::Static {
+                relation.show_next();
+            } else {
+                self.queue.push_back((*predicate, row));
+            }
+        }
+    }
+
+    fn fire(&mut self, index: usize, trigger: Option<Trigger>) -> Result<(), GroundError> {
+        let rule = &self.lifted.rules[index];
+        let width = rule.body.bound.len();
+        let mut found = std::mem::take(&mut self.found);
+        found.clear();
+        // A rule over no variables has one instance at most.
+        let room = self.limits.instances + 1 - self.total;
+        let max_count = if width == 0 { 1 - self.counts[index].min(1) } else { room };
+        let mut join = Join {
+            symbols: &self.lifted.symbols,
+            relations: &self.relations,
+            body: &rule.body,
+            binding: &mut self.binding,
+            found: &mut found,
+            count: 0,
+            max_count,
+            steps_left: self.steps_left,
+        };
+        join.run(trigger);
+        let count = join.count;
+        self.steps_left = join.steps_left;
+        self.counts[index] += count;
+        self.total += count;
+        if self.total > self.limits.instances {
+            return Err(GroundError::TooLarge {
+                what: "instances of actions, effects and axioms",
+                limit: self.limits.instances as u64,
+            });
+        }
+        if self.steps_left == 0 {
+            return Err(GroundError::TooLarge { what: "steps of joining facts", limit: self.limits.steps });
+        }
+        self.conclude(index, &found, count);
+        self.instances[index].extend_from_slice(&found);
+        self.found = found;
+        if self.facts > self.limits.facts {
+            return Err(GroundError::TooLarge { what: "reachable facts", limit: self.limits.facts as u64 });
+        }
+        Ok(())
+    }
+
+    /// Adds what the instances in `found` reach.
+    fn conclude(&mut self, index: usize, found: &[u32], count: usize) {
+        let lifted = self.lifted;
+        let rule = &lifted.rules[index];
+        let width = rule.body.bound.len();
+        for instance in 0..count {
+            let values = &found[instance * width..(instance + 1) * width];
+            let value = |term: &Term| match term {
+                Term::Object(object) => *object,
+                Term::Variable(slot) => {
+                    // Parameters come first and in order; others are looked up.
+                    match rule.body.bound.get(*slot as usize) {
+                        Some(at) if at == slot => values[*slot as usize],
+                        _ => rule.body.bound.iter().position(|b| b == slot).map_or(0, |at| values[at]),
+                    }
+                }
+            };
+            match &rule.head {
+                Head::Act { action } => {
+                    let schema = &lifted.schemas[*action as usize];
+                    if !schema.conditional.is_empty() {
+                        self.add(schema.applied, values);
+                    }
+                    for change in &schema.effects {
+                        if let Change::Add(atom) = change {
+                            self.add_atom(atom, &value);
+                        }
+                    }
+                }
+                Head::Effect { action, effect } => {
+                    let schema = &lifted.schemas[*action as usize];
+                    if let Change::Add(atom) = &schema.conditional[*effect as usize] {
+                        self.add_atom(atom, &value);
+                    }
+                }
+                Head::Derived(atom) => self.add_atom(atom, &value),
+            }
+        }
+    }
+
+    fn add_atom(&mut self, atom: &LiftedAtom, value: &impl Fn(&Term) -> u32) {
+        let mut args = [0u32; 16];
+        if atom.args.len() <= args.len() {
+            for (arg, term) in args.iter_mut().zip(&atom.args) {
+                *arg = value(term);
+            }
+            self.add(atom.predicate, &args[..atom.args.len()]);
+        } else {
+            let args: Vec<u32> = atom.args.iter().map(value).collect();
+            self.add(atom.predicate, &args);
+        }
+    }
+
+    fn add(&mut self, predicate: u32, args: &[u32]) {
+        if let Some(row) = self.relations[predicate as usize].insert(args) {
+            self.facts += 1;
+            self.queue.push_back((predicate, row));
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! Heuristics and what they promise.
+
+mod graph;
+mod landmark;
+mod relaxation;
+
+pub(crate) use graph::Graph;
+pub(crate) use landmark::{LandmarkGraph, Status};
+pub use relaxation::{Costs, Relaxation};
+
+use crate::task::OperatorId;
+
+/// What a heuristic promises; property tests hold it to this.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Properties {
+    /// Never more than the true cost.
+    pub admissible: bool,
+    /// Never falls by more than the cost of an operator.
+    pub consistent: bool,
+    /// Calls a state a dead end only if it is one.
+    pub safe: bool,
+}
+
+/// An estimate for one state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Estimate {
+    /// So far to the goal.
+    Cost(u32),
+    /// The goal cannot be reached.
+    DeadEnd,
+}
+
+/// Estimates how far a state is from the goal.
+pub trait Heuristic {
+    /// What the estimates promise.
+    fn properties(&self) -> Properties;
+    /// The estimate for a packed state. Operators that look promising are added to `preferred`.
+    fn estimate(&mut self, state: &[u64], preferred: &mut Vec<OperatorId>) -> Estimate;
+}

@@ -1,0 +1,292 @@
+//! Heuristics from the task without deletes: h_max and h_add (Bonet & Geffner 2001, "Planning as heuristic
+//! search"), and h_FF, the size of a relaxed plan read off h_add's best supporters (Hoffmann & Nebel 2001,
+//! "The FF planning system"; Keyder & Geffner 2008, "Heuristics for planning with action costs revisited").
+
+use std::rc::Rc;
+
+use super::graph::{Graph, NO_NODE};
+use super::{Estimate, Heuristic, Properties};
+use crate::task::{FactId, OperatorId, Task};
+
+const UNREACHED: u32 = u32::MAX;
+
+/// What an operator costs to a heuristic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Costs {
+    /// One each.
+    Unit,
+    /// Its own cost.
+    Real,
+    /// Its own cost plus one, so that free operators count too.
+    PlusOne,
+}
+
+impl Costs {
+    pub(crate) fn of(self, task: &Task, operator: OperatorId) -> u32 {
+        let cost = task.operators[operator.index()].units;
+        match self {
+            Costs::Unit => 1,
+            Costs::Real => cost,
+            Costs::PlusOne if task.has_costs => cost.saturating_add(1),
+            Costs::PlusOne => 1,
+        }
+    }
+}
+
+/// The delete relaxation of a task, with the work space to evaluate states on it.
+#[derive(Debug)]
+pub struct Relaxation<'a> {
+    task: &'a Task,
+    graph: Rc<Graph>,
+    base_cost: Vec<u32>,
+    is_goal: Vec<bool>,
+    // The rest is work space, valid for the state evaluated last.
+    fact_cost: Vec<u32>,
+    supporter: Vec<u32>,
+    node_cost: Vec<u32>,
+    missing: Vec<u32>,
+    queue: BucketQueue,
+    marked_facts: Stamps,
+    marked_nodes: Stamps,
+    marked_operators: Stamps,
+    agenda: Vec<FactId>,
+    /// The operators of the last relaxed plan.
+    relaxed_plan: Vec<OperatorId>,
+}
+
+impl<'a> Relaxation<'a> {
+    /// Builds the relaxation.
+    pub fn new(task: &'a Task, costs: Costs) -> Self {
+        Self::on(task, Rc::new(Graph::new(task)), costs)
+    }
+
+    /// The same on a graph that is there already.
+    pub(crate) fn on(task: &'a Task, graph: Rc<Graph>, costs: Costs) -> Self {
+        let cost =
+            |&operator: &u32| if operator == NO_NODE { 0 } else { costs.of(task, OperatorId(operator)) };
+        let count = graph.operator_of.len();
+        let mut is_goal = vec![false; task.facts.len()];
+        task.goal.iter().for_each(|fact| is_goal[fact.index()] = true);
+        Relaxation {
+            task,
+            base_cost: graph.operator_of.iter().map(cost).collect(),
+            fact_cost: vec![UNREACHED; task.facts.len()],
+            supporter: vec![NO_NODE; task.facts.len()],
+            node_cost: vec![0; count],
+            missing: vec![0; count],
+            queue: BucketQueue::default(),
+            marked_facts: Stamps::new(task.facts.len()),
+            marked_nodes: Stamps::new(count),
+            marked_operators: Stamps::new(task.operators.len()),
+            agenda: Vec::new(),
+            relaxed_plan: Vec::new(),
+            graph,
+            is_goal,
+        }
+    }
+
+    /// Works out the costs of facts, until all of `goals` are final or everything is reached. `MAX`: a node
+    /// costs as much as its dearest condition; else as all of them together.
+    fn propagate<const MAX: bool>(&mut self, state: &[u64], exhaustive: bool) {
+        self.fact_cost.fill(UNREACHED);
+        self.node_cost.copy_from_slice(&self.base_cost);
+        self.missing.copy_from_slice(&self.graph.condition_count);
+        self.queue.clear();
+        let task = self.task;
+        for fact in task.facts_of(state) {
+            self.reach(fact, 0, NO_NODE);
+        }
+        for at in 0..self.graph.free_facts.len() {
+            self.reach(self.graph.free_facts[at], 0, NO_NODE);
+        }
+        for at in 0..self.graph.free_nodes.len() {
+            self.fire(self.graph.free_nodes[at]);
+        }
+        let mut goals = task.goal.len();
+        while let Some((cost, fact)) = self.queue.pop() {
+            if self.fact_cost[fact.index()] != cost {
+                continue;
+            }
+            if self.is_goal[fact.index()] {
+                goals -= 1;
+                if goals == 0 && !exhaustive {
+                    return;
+                }
+            }
+            for at in self.graph.waiting.range(fact.index()) {
+                let node = self.graph.waiting.items()[at] as usize;
+                self.missing[node] -= 1;
+                let total = &mut self.node_cost[node];
+                if MAX {
+                    *total = (*total).max(self.base_cost[node] + cost);
+                } else {
+                    *total = total.saturating_add(cost).min(UNREACHED - 1);
+                }
+                if self.missing[node] == 0 {
+                    self.fire(node as u32);
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn fire(&mut self, node: u32) {
+        let cost = self.node_cost[node as usize];
+        for at in self.graph.effects.range(node as usize) {
+            self.reach(self.graph.effects.items()[at], cost, node);
+        }
+    }
+
+    #[inline]
+    fn reach(&mut self, fact: FactId, cost: u32, supporter: u32) {
+        let known = &mut self.fact_cost[fact.index()];
+        if cost < *known {
+            *known = cost;
+            self.supporter[fact.index()] = supporter;
+            self.queue.push(cost, fact);
+        }
+    }
+
+    /// How much there is to look at in one evaluation, at most.
+    pub(crate) fn size(&self) -> usize {
+        self.graph.size()
+    }
+
+    /// h_max of a state with this graph's costs; `None` if the goal is out of reach.
+    pub fn hmax(&mut self, state: &[u64]) -> Option<u32> {
+        self.propagate::<true>(state, false);
+        let dearest = self.task.goal.iter().map(|fact| self.fact_cost[fact.index()]).max().unwrap_or(0);
+        (dearest != UNREACHED).then_some(dearest)
+    }
+
+    /// The goal facts that cannot be reached from a state even if nothing is ever deleted.
+    pub fn unreachable_goals(&mut self, state: &[u64]) -> Vec<FactId> {
+        self.propagate::<true>(state, true);
+        let goal = self.task.goal.iter();
+        goal.copied().filter(|fact| self.fact_cost[fact.index()] == UNREACHED).collect()
+    }
+
+    /// The operators of the relaxed plan of the state evaluated last.
+    pub fn relaxed_plan(&self) -> &[OperatorId] {
+        &self.relaxed_plan
+    }
+
+    /// h_FF of a state; the relaxed plan is then at [`Relaxation::relaxed_plan`].
+    pub fn hff(&mut self, state: &[u64], preferred: &mut Vec<OperatorId>) -> Option<u32> {
+        self.propagate::<false>(state, false);
+        self.relaxed_plan.clear();
+        if self.task.goal.iter().any(|fact| self.fact_cost[fact.index()] == UNREACHED) {
+            return None;
+        }
+        self.marked_facts.clear();
+        self.marked_nodes.clear();
+        self.marked_operators.clear();
+        let mut total = 0u32;
+        self.agenda.clear();
+        self.agenda.extend_from_slice(&self.task.goal);
+        while let Some(fact) = self.agenda.pop() {
+            let node = self.supporter[fact.index()];
+            if !self.marked_facts.mark(fact.index())
+                || node == NO_NODE
+                || !self.marked_nodes.mark(node as usize)
+            {
+                continue;
+            }
+            self.agenda.extend_from_slice(self.graph.conditions.row(node as usize));
+            let operator = self.graph.operator_of[node as usize];
+            if operator == NO_NODE || !self.marked_operators.mark(operator as usize) {
+                continue;
+            }
+            total = total.saturating_add(self.base_cost[node as usize]);
+            let operator = OperatorId(operator);
+            self.relaxed_plan.push(operator);
+            if self.task.applicable(state, operator) {
+                preferred.push(operator);
+            }
+        }
+        Some(total)
+    }
+}
+
+impl Heuristic for Relaxation<'_> {
+    fn properties(&self) -> Properties {
+        Properties { admissible: false, consistent: false, safe: true }
+    }
+
+    fn estimate(&mut self, state: &[u64], preferred: &mut Vec<OperatorId>) -> Estimate {
+        self.hff(state, preferred).map_or(Estimate::DeadEnd, Estimate::Cost)
+    }
+}
+
+/// Facts by cost: a bucket for each small cost, a heap for the rest.
+#[derive(Debug, Default)]
+struct BucketQueue {
+    buckets: Vec<Vec<FactId>>,
+    at: usize,
+    highest: usize,
+    dear: std::collections::BinaryHeap<std::cmp::Reverse<(u32, FactId)>>,
+}
+
+impl BucketQueue {
+    const BUCKETS: usize = 1 << 14;
+
+    fn clear(&mut self) {
+        for bucket in self.buckets.iter_mut().take(self.highest + 1) {
+            bucket.clear();
+        }
+        self.dear.clear();
+        self.at = 0;
+        self.highest = 0;
+    }
+
+    #[inline]
+    fn push(&mut self, cost: u32, fact: FactId) {
+        let at = cost as usize;
+        if at >= Self::BUCKETS {
+            return self.dear.push(std::cmp::Reverse((cost, fact)));
+        }
+        if at >= self.buckets.len() {
+            self.buckets.resize_with(at + 1, Vec::new);
+        }
+        self.highest = self.highest.max(at);
+        self.buckets[at].push(fact);
+    }
+
+    #[inline]
+    fn pop(&mut self) -> Option<(u32, FactId)> {
+        while self.at < self.buckets.len() && self.at <= self.highest {
+            if let Some(fact) = self.buckets[self.at].pop() {
+                return Some((self.at as u32, fact));
+            }
+            self.at += 1;
+        }
+        self.dear.pop().map(|std::cmp::Reverse(entry)| entry)
+    }
+}
+
+/// Marks that are all forgotten at once.
+#[derive(Debug)]
+pub(crate) struct Stamps {
+    stamps: Vec<u32>,
+    now: u32,
+}
+
+impl Stamps {
+    pub fn new(len: usize) -> Self {
+        Stamps { stamps: vec![0; len], now: 1 }
+    }
+
+    pub fn clear(&mut self) {
+        self.now = self.now.wrapping_add(1);
+        if self.now == 0 {
+            self.stamps.fill(0);
+            self.now = 1;
+        }
+    }
+
+    /// Marks; false if it was marked already.
+    #[inline]
+    pub fn mark(&mut self, at: usize) -> bool {
+        std::mem::replace(&mut self.stamps[at], self.now) != self.now
+    }
+}

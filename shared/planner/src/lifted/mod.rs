@@ -1,0 +1,162 @@
+//! The lifted task with names resolved to numbers and conditions in the shape grounding works on: Datalog
+//! rules (Helmert 2009, "Concise finite-domain representations for PDDL planning tasks", section 6), where
+//! disjunctions and existential quantifiers have become derived predicates and universal quantifiers wait
+//! to be expanded on ground level.
+
+mod describe;
+mod effects;
+mod resolve;
+mod rules;
+mod symbols;
+
+use lamma_pddl::Name;
+use lamma_pddl::ast::{ArithmeticOp, AssignOp, Comparison, Decimal};
+
+pub(crate) use resolve::free_variables;
+pub(crate) use rules::lift;
+pub(crate) use symbols::Symbols;
+
+/// A variable (a slot of the rule's scope) or an object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Term {
+    /// The variable in this slot.
+    Variable(u32),
+    /// The object.
+    Object(u32),
+}
+
+/// A predicate (or function) over terms.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct LiftedAtom {
+    pub predicate: u32,
+    pub args: Vec<Term>,
+}
+
+/// A condition in negation normal form. `And([])` is true, `Or([])` is false.
+#[derive(Clone, Debug)]
+pub(crate) enum Formula {
+    Literal { atom: LiftedAtom, positive: bool },
+    Equal { left: Term, right: Term, positive: bool },
+    Compare { comparison: Comparison, left: Expr, right: Expr, positive: bool },
+    And(Vec<Formula>),
+    Or(Vec<Formula>),
+    Exists(Vec<u32>, Box<Formula>),
+    Forall(Vec<u32>, Box<Formula>),
+}
+
+/// A numeric expression over the numeric functions.
+#[derive(Clone, Debug)]
+pub(crate) enum Expr {
+    Number(f64),
+    Value(LiftedAtom),
+    Operation(ArithmeticOp, Vec<Expr>),
+}
+
+/// A comparison of numbers, or its negation.
+#[derive(Clone, Debug)]
+pub(crate) struct LiftedComparison {
+    pub comparison: Comparison,
+    pub left: Expr,
+    pub right: Expr,
+    pub positive: bool,
+}
+
+/// What a predicate is to the task.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// No action changes it: its facts are those of the initial state.
+    Static,
+    /// Actions change it.
+    Fluent,
+    /// Axioms, or conditions with a disjunction or an existential quantifier, define it.
+    Derived,
+    /// "This action was reached with these arguments": exists during grounding only.
+    Applied,
+}
+
+/// The conjunctive body of a rule.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Body {
+    /// The domain of every slot of the scope the rule comes from.
+    pub variables: Vec<u32>,
+    /// The slots that an instance of the rule binds, in the order in which an instance lists them.
+    pub bound: Vec<u32>,
+    /// What must hold.
+    pub atoms: Vec<LiftedAtom>,
+    /// What must not hold.
+    pub absent: Vec<LiftedAtom>,
+    /// Which terms are (`true`) or are not (`false`) the same object.
+    pub equal: Vec<(Term, Term, bool)>,
+    /// Universally quantified conditions.
+    pub foralls: Vec<Formula>,
+    /// Comparisons of numbers.
+    pub comparisons: Vec<LiftedComparison>,
+    /// Set if a part of the body can never hold.
+    pub never: bool,
+}
+
+/// What an instance of a rule's body gives.
+#[derive(Clone, Debug)]
+pub(crate) enum Head {
+    /// The action can be applied.
+    Act { action: u32 },
+    /// The action's quantified or conditional effect happens. For a delete effect the deleted atom is the
+    /// second atom of the body: only what can be true need be deleted.
+    Effect { action: u32, effect: u32 },
+    /// The derived atom holds.
+    Derived(LiftedAtom),
+}
+
+/// A rule.
+#[derive(Clone, Debug)]
+pub(crate) struct Rule {
+    pub head: Head,
+    pub body: Body,
+}
+
+/// What an effect does.
+#[derive(Clone, Debug)]
+pub(crate) enum Change {
+    Add(LiftedAtom),
+    Delete(LiftedAtom),
+    Assign { op: AssignOp, target: LiftedAtom, value: Expr },
+}
+
+/// An action schema without its conditions, which are rules.
+#[derive(Clone, Debug)]
+pub(crate) struct Schema {
+    pub name: Name,
+    /// Slots `0..params` of its rules' scopes are the parameters.
+    pub params: usize,
+    /// The predicate that stands for "reached", used where there are conditional effects.
+    pub applied: u32,
+    /// Effects without conditions and quantifiers.
+    pub effects: Vec<Change>,
+    /// The others; each has one or more rules.
+    pub conditional: Vec<Change>,
+    /// What the action costs; the sum of these.
+    pub cost: Vec<Expr>,
+}
+
+/// The whole lifted task.
+#[derive(Debug)]
+pub(crate) struct Lifted {
+    pub symbols: Symbols,
+    pub schemas: Vec<Schema>,
+    pub rules: Vec<Rule>,
+    /// The goal as one body over no variables.
+    pub goal: Body,
+    /// Initially true atoms: predicate and objects.
+    pub init: Vec<(u32, Vec<u32>)>,
+    /// Initial numbers: function and objects.
+    pub values: Vec<(u32, Vec<u32>, f64)>,
+    /// Whether actions cost what `Schema::cost` says instead of one each.
+    pub has_costs: bool,
+    /// What each condition that became a derived predicate says, for people.
+    pub explained: Vec<(u32, String)>,
+}
+
+/// The value of a literal.
+pub(crate) fn number(decimal: &Decimal) -> f64 {
+    decimal.value()
+}

@@ -1,0 +1,138 @@
+//! Making a plan better within a bounded effort.
+
+use super::limits::Meter;
+use super::open_list::OpenList;
+use super::registry::{Registry, StateId};
+use crate::heuristic::{Costs, Relaxation};
+use crate::successor::Successors;
+use crate::task::{OperatorId, Task};
+
+/// Drops useless operators, then looks for cheaper plans with weighted A* of falling weight.
+pub(super) fn improve(
+    task: &Task,
+    successors: &Successors,
+    relaxation: &mut Relaxation<'_>,
+    plan: Vec<OperatorId>,
+    effort: u64,
+    meter: &mut Meter<'_>,
+) -> Vec<OperatorId> {
+    let mut best = eliminate(task, plan);
+    let mut left = effort;
+    for weight in [5, 2, 1] {
+        let bound = cost(task, &best);
+        let search = Improvement { task, successors, relaxation, weight, bound, left: &mut left };
+        match search.run(meter) {
+            Step::Better(path) => best = eliminate(task, path),
+            Step::Nothing => {}
+            Step::Stopped => break,
+        }
+    }
+    best
+}
+
+/// The cost of a plan as searches count it: as the metric says, ties broken by length.
+fn cost(task: &Task, plan: &[OperatorId]) -> u64 {
+    plan.iter().map(|&operator| operator_cost(task, operator)).sum()
+}
+
+fn operator_cost(task: &Task, operator: OperatorId) -> u64 {
+    u64::from(Costs::PlusOne.of(task, operator))
+}
+
+/// Drops groups of operators that the plan works without (Nakhost & Müller 2010, "Action elimination and
+/// plan neighborhood graph search", section 3): leaving one out, all later ones that then do not apply go
+/// too; if the goal still holds, so it stays.
+pub(super) fn eliminate(task: &Task, mut plan: Vec<OperatorId>) -> Vec<OperatorId> {
+    let mut state = task.init.clone();
+    let mut next = state.clone();
+    let mut at = 0;
+    while at < plan.len() {
+        let mut without = state.clone();
+        let mut kept = Vec::with_capacity(plan.len() - at);
+        for &operator in &plan[at + 1..] {
+            if task.applicable(&without, operator) {
+                task.apply(&without, operator, &mut next);
+                std::mem::swap(&mut without, &mut next);
+                kept.push(operator);
+            }
+        }
+        if task.is_goal(&without) {
+            plan.truncate(at);
+            plan.extend(kept);
+        } else {
+            task.apply(&state, plan[at], &mut next);
+            std::mem::swap(&mut state, &mut next);
+            at += 1;
+        }
+    }
+    plan
+}
+
+enum Step {
+    Better(Vec<OperatorId>),
+    Nothing,
+    Stopped,
+}
+
+/// One weighted A* for a plan cheaper than `bound`.
+struct Improvement<'a, 't> {
+    task: &'a Task,
+    successors: &'a Successors,
+    relaxation: &'a mut Relaxation<'t>,
+    weight: u64,
+    bound: u64,
+    left: &'a mut u64,
+}
+
+impl Improvement<'_, '_> {
+    fn run(self, meter: &mut Meter<'_>) -> Step {
+        let task = self.task;
+        let mut registry = Registry::new(task);
+        let mut costs = vec![0u64];
+        let mut estimates: Vec<Option<u32>> = vec![self.relaxation.hff(&task.init, &mut Vec::new())];
+        let mut open = OpenList::default();
+        open.push(0, (StateId(0), 0u64));
+        let (mut applicable, mut preferred) = (Vec::new(), Vec::new());
+        let (mut state, mut next) = (task.init.clone(), task.init.clone());
+        while let Some((_, (id, g))) = open.pop() {
+            if g != costs[id.0 as usize] {
+                continue;
+            }
+            if *self.left == 0 || meter.expand(|| registry.bytes() + open.bytes()).is_err() {
+                return Step::Stopped;
+            }
+            state.copy_from_slice(registry.state(id));
+            applicable.clear();
+            self.successors.applicable(task, &state, &mut applicable);
+            for &operator in &applicable {
+                let cost = g + operator_cost(task, operator);
+                if cost >= self.bound {
+                    continue;
+                }
+                task.apply(&state, operator, &mut next);
+                let (successor, new) = registry.insert(&next, id, operator);
+                let index = successor.0 as usize;
+                if new {
+                    costs.push(cost);
+                    if task.is_goal(&next) {
+                        return Step::Better(registry.path(successor));
+                    }
+                    preferred.clear();
+                    *self.left = self.left.saturating_sub(1);
+                    estimates.push(self.relaxation.hff(&next, &mut preferred));
+                } else if cost < costs[index] {
+                    costs[index] = cost;
+                    registry.set_origin(successor, id, operator);
+                } else {
+                    continue;
+                }
+                // h_FF may overestimate, so it orders the search but prunes only dead ends.
+                if let Some(h) = estimates[index] {
+                    let key = cost + self.weight * u64::from(h);
+                    open.push(u32::try_from(key).unwrap_or(u32::MAX), (successor, cost));
+                }
+            }
+        }
+        Step::Nothing
+    }
+}

@@ -1,0 +1,119 @@
+//! Limits, options and outcomes of a search.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use crate::plan::Plan;
+
+/// How much a search may use. `None` means no limit.
+#[derive(Clone, Debug, Default)]
+pub struct Limits {
+    /// Expanded states, a measure of time that is the same on every machine.
+    pub expansions: Option<u64>,
+    /// Wall-clock time. The clock is read only where this is given.
+    pub time: Option<Duration>,
+    /// Memory for states and open lists.
+    pub memory_bytes: Option<usize>,
+}
+
+/// What came out.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// A plan.
+    Found(Plan),
+    /// Proved: there is none.
+    Unsolvable(Unsolvable),
+    /// Neither a plan nor a proof within the limits.
+    GaveUp(GaveUp),
+}
+
+/// Why no plan exists.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unsolvable {
+    /// These parts of the goal cannot become true even if nothing were ever deleted.
+    Unreachable(Vec<String>),
+    /// Every reachable state was seen.
+    Exhausted,
+}
+
+impl std::fmt::Display for Unsolvable {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Unsolvable::Unreachable(facts) => {
+                write!(f, "no sequence of actions can make this part of the goal true: {}", facts.join(", "))
+            }
+            Unsolvable::Exhausted => {
+                f.write_str("every reachable state was searched and none meets the goal")
+            }
+        }
+    }
+}
+
+/// Why a search stopped early.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GaveUp {
+    /// The limit of expansions.
+    Expansions,
+    /// The limit of time.
+    Time,
+    /// The limit of memory.
+    Memory,
+    /// The caller cancelled.
+    Cancelled,
+}
+
+impl std::fmt::Display for GaveUp {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            GaveUp::Expansions => "the limit of expanded states is used up",
+            GaveUp::Time => "the time limit is used up",
+            GaveUp::Memory => "the memory limit is used up",
+            GaveUp::Cancelled => "the search was cancelled",
+        })
+    }
+}
+
+/// Watches the limits during a search.
+pub(crate) struct Meter<'a> {
+    limits: &'a Limits,
+    cancel: &'a AtomicBool,
+    deadline: Option<Instant>,
+    pub expanded: u64,
+    ticks: u32,
+}
+
+impl<'a> Meter<'a> {
+    pub fn new(limits: &'a Limits, cancel: &'a AtomicBool) -> Self {
+        let deadline = limits.time.and_then(|time| Instant::now().checked_add(time));
+        Meter { limits, cancel, deadline, expanded: 0, ticks: 0 }
+    }
+
+    /// Counts an expansion; says if the search must stop. `bytes` is asked only now and then.
+    #[inline]
+    pub fn expand(&mut self, bytes: impl FnOnce() -> usize) -> Result<(), GaveUp> {
+        if self.limits.expansions.is_some_and(|limit| self.expanded >= limit) {
+            return Err(GaveUp::Expansions);
+        }
+        self.expanded += 1;
+        self.ticks += 1;
+        if self.ticks < 32 {
+            return Ok(());
+        }
+        self.ticks = 0;
+        self.check(bytes)
+    }
+
+    /// Checks everything but the expansions.
+    pub fn check(&self, bytes: impl FnOnce() -> usize) -> Result<(), GaveUp> {
+        if self.cancel.load(Ordering::Relaxed) {
+            return Err(GaveUp::Cancelled);
+        }
+        if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+            return Err(GaveUp::Time);
+        }
+        if self.limits.memory_bytes.is_some_and(|limit| bytes() > limit) {
+            return Err(GaveUp::Memory);
+        }
+        Ok(())
+    }
+}

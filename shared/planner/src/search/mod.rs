@@ -1,0 +1,114 @@
+//! Searching for plans.
+
+mod greedy;
+mod improve;
+mod limits;
+mod open_list;
+mod registry;
+
+use std::rc::Rc;
+use std::sync::atomic::AtomicBool;
+
+use lamma_pddl::ast::{Domain, Problem};
+
+pub use limits::{GaveUp, Limits, Outcome, Unsolvable};
+
+use crate::ground::{GroundError, GroundLimits, ground};
+use crate::heuristic::{Costs, Graph, LandmarkGraph, Relaxation};
+use crate::successor::Successors;
+use crate::task::Task;
+use limits::Meter;
+
+/// The work, in nodes of the relaxed task looked at, that improving a plan may take by default.
+const IMPROVEMENT_WORK: u64 = 400_000;
+
+/// How to search.
+#[derive(Clone, Debug, Default)]
+pub struct SearchOptions {
+    /// States estimated to make the first plan better; zero: only useless actions are dropped. `None`: what
+    /// takes about a millisecond, which is much for household tasks and next to nothing for large ones.
+    pub improvement: Option<u64>,
+}
+
+/// What a search did.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Statistics {
+    /// Expanded states until the first plan.
+    pub expanded: u64,
+    /// Landmarks found.
+    pub landmarks: usize,
+    /// The cost of the first plan.
+    pub first_cost: f64,
+}
+
+/// Searches for a plan.
+pub fn solve(task: &Task, options: &SearchOptions, limits: &Limits, cancel: &AtomicBool) -> Outcome {
+    solve_with_statistics(task, options, limits, cancel, &mut Statistics::default())
+}
+
+/// Searches for a plan and says how it went.
+pub fn solve_with_statistics(
+    task: &Task,
+    options: &SearchOptions,
+    limits: &Limits,
+    cancel: &AtomicBool,
+    statistics: &mut Statistics,
+) -> Outcome {
+    if !task.impossible.is_empty() {
+        return Outcome::Unsolvable(Unsolvable::Unreachable(task.impossible.clone()));
+    }
+    let graph = Rc::new(Graph::new(task));
+    let mut relaxation = Relaxation::on(task, Rc::clone(&graph), Costs::Unit);
+    let unreachable = relaxation.unreachable_goals(&task.init);
+    if !unreachable.is_empty() {
+        let facts = unreachable.into_iter().map(|fact| task.fact_text(fact)).collect();
+        return Outcome::Unsolvable(Unsolvable::Unreachable(facts));
+    }
+    let successors = Successors::new(task);
+    let landmarks = LandmarkGraph::new(task, &graph);
+    statistics.landmarks = landmarks.len();
+    let mut meter = Meter::new(limits, cancel);
+    let found = greedy::lazy_greedy(task, &successors, &mut relaxation, Some(&landmarks), &mut meter);
+    statistics.expanded = meter.expanded;
+    match found {
+        Err(reason) => Outcome::GaveUp(reason),
+        Ok(None) => Outcome::Unsolvable(Unsolvable::Exhausted),
+        Ok(Some(path)) => {
+            statistics.first_cost = path.iter().map(|&o| task.operators[o.index()].cost).sum();
+            let affordable = IMPROVEMENT_WORK / relaxation.size().max(1) as u64;
+            let effort = options.improvement.unwrap_or(affordable);
+            let mut relaxation = Relaxation::on(task, graph, Costs::PlusOne);
+            let path = improve::improve(task, &successors, &mut relaxation, path, effort, &mut meter);
+            Outcome::Found(task.plan(&path))
+        }
+    }
+}
+
+/// Grounds a task and searches with the default options.
+pub fn plan(
+    domain: &Domain,
+    problem: &Problem,
+    limits: &Limits,
+    cancel: &AtomicBool,
+) -> Result<Outcome, GroundError> {
+    let task = ground(domain, problem, &GroundLimits::default())?;
+    Ok(solve(&task, &SearchOptions::default(), limits, cancel))
+}
+
+/// h_FF of the initial state with every action at cost one: how many actions a relaxed plan has. `None` if
+/// the goal is out of reach.
+pub fn relaxed_plan_cost(task: &Task) -> Option<u32> {
+    if !task.impossible.is_empty() {
+        return None;
+    }
+    Relaxation::new(task, Costs::Unit).hff(&task.init, &mut Vec::new())
+}
+
+/// h_max of the initial state with every action at cost one: no schedule of the task takes fewer steps.
+/// `None` if the goal is out of reach.
+pub fn hmax_unit(task: &Task) -> Option<u32> {
+    if !task.impossible.is_empty() {
+        return None;
+    }
+    Relaxation::new(task, Costs::Unit).hmax(&task.init)
+}

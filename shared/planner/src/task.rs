@@ -1,0 +1,337 @@
+//! The grounded task: finite-domain variables, operators and axioms; states packed into words.
+
+use std::fmt;
+
+use lamma_pddl::Name;
+use lamma_pddl::ast::GroundAtom;
+
+use crate::csr::Csr;
+use crate::plan::{GroundAct, Literal, Plan};
+
+/// A variable having a value. The facts of a variable have consecutive numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct FactId(pub u32);
+
+/// An operator: an action with its arguments.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct OperatorId(pub u32);
+
+impl FactId {
+    /// As an index.
+    #[inline]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl OperatorId {
+    /// As an index.
+    #[inline]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A variable and where its value stands in a packed state.
+#[derive(Clone, Copy, Debug)]
+pub struct Variable {
+    /// Its first fact.
+    pub first: FactId,
+    /// The number of its values.
+    pub size: u32,
+    pub(crate) word: u32,
+    pub(crate) shift: u32,
+    /// The mask of the value before shifting.
+    pub(crate) mask: u64,
+}
+
+impl Variable {
+    /// The fact that holds in `state`.
+    #[inline]
+    pub fn fact(&self, state: &[u64]) -> FactId {
+        FactId(self.first.0 + (state[self.word as usize] >> self.shift & self.mask) as u32)
+    }
+}
+
+/// A fact with what is needed to test and to set it.
+#[derive(Clone, Copy, Debug)]
+pub struct Fact {
+    /// The variable's number.
+    pub variable: u32,
+    pub(crate) word: u32,
+    pub(crate) mask: u64,
+    pub(crate) bits: u64,
+    /// The atom (as in [`Names::atoms`]) and whether it holds; `None` where the fact says only that none of
+    /// several atoms does.
+    pub(crate) atom: Option<(u32, bool)>,
+}
+
+impl Fact {
+    #[inline]
+    pub(crate) fn holds(&self, state: &[u64]) -> bool {
+        state[self.word as usize] & self.mask == self.bits
+    }
+    #[inline]
+    pub(crate) fn set(&self, state: &mut [u64]) {
+        let word = &mut state[self.word as usize];
+        *word = *word & !self.mask | self.bits;
+    }
+}
+
+/// An operator's name and cost.
+#[derive(Clone, Copy, Debug)]
+pub struct Operator {
+    /// What it costs, as the problem's metric says; 1 where there are no action costs.
+    pub cost: f64,
+    /// The cost as search counts it.
+    pub(crate) units: u32,
+    pub(crate) schema: u32,
+    pub(crate) args: u32,
+}
+
+/// An effect that happens where its condition held before.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct ConditionalEffect {
+    /// A row of [`Task::effect_conditions`].
+    pub condition: u32,
+    pub fact: FactId,
+}
+
+/// Sets some bits of one word.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Write {
+    pub word: u32,
+    pub clear: u64,
+    pub set: u64,
+}
+
+/// `head` holds where all of the body do.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Axiom {
+    pub head: FactId,
+    /// A row of [`Task::axiom_bodies`].
+    pub body: u32,
+}
+
+/// The names behind the numbers.
+#[derive(Debug, Default)]
+pub(crate) struct Names {
+    pub objects: Vec<Name>,
+    pub predicates: Vec<Name>,
+    pub schemas: Vec<(Name, usize)>,
+    /// Predicate and arguments of each atom, or the text of a condition.
+    pub atoms: Vec<AtomText>,
+    pub args: Vec<u32>,
+}
+
+/// What an atom is called.
+#[derive(Clone, Debug)]
+pub(crate) enum AtomText {
+    Atom { predicate: u32, args: std::ops::Range<u32> },
+    Condition(String),
+}
+
+/// A state, packed: the values of all variables in a few words.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct State(pub Box<[u64]>);
+
+/// A grounded planning task.
+#[derive(Debug, Default)]
+pub struct Task {
+    pub(crate) names: Names,
+    /// The finite-domain variables; the derived ones come last.
+    pub variables: Vec<Variable>,
+    /// All facts, by number.
+    pub facts: Vec<Fact>,
+    /// All operators, by number.
+    pub operators: Vec<Operator>,
+    pub(crate) preconditions: Csr<FactId>,
+    /// Unconditional effects.
+    pub(crate) effects: Csr<FactId>,
+    /// The same, merged into words.
+    pub(crate) writes: Csr<Write>,
+    /// Conditional effects; those that make an atom false come first, as PDDL orders them.
+    pub(crate) conditional: Csr<ConditionalEffect>,
+    pub(crate) effect_conditions: Csr<FactId>,
+    /// Grouped into layers: evaluating layer by layer gives the values of all derived variables.
+    pub(crate) axioms: Vec<Axiom>,
+    pub(crate) axiom_bodies: Csr<FactId>,
+    pub(crate) axiom_layers: Vec<std::ops::Range<usize>>,
+    /// Whether a layer must be evaluated again until nothing changes (recursive axioms).
+    pub(crate) recursive_axioms: bool,
+    /// Bits of the derived variables by word, to clear before evaluating axioms.
+    pub(crate) derived_masks: Vec<(usize, u64)>,
+    /// The number of variables that axioms do not define.
+    pub(crate) primary_variables: usize,
+    /// The initial state.
+    pub init: Vec<u64>,
+    /// The goal: facts that must hold together.
+    pub goal: Vec<FactId>,
+    /// Parts of the goal that can never hold, found while grounding. Not empty: no plan exists.
+    pub impossible: Vec<String>,
+    /// Whether operators have costs of their own.
+    pub has_costs: bool,
+    pub(crate) words: usize,
+}
+
+impl Task {
+    /// The number of words of a packed state.
+    pub fn state_words(&self) -> usize {
+        self.words
+    }
+
+    /// The initial state.
+    pub fn initial_state(&self) -> State {
+        State(self.init.clone().into_boxed_slice())
+    }
+
+    /// The facts that must hold for an operator to apply.
+    #[inline]
+    pub fn preconditions(&self, operator: OperatorId) -> &[FactId] {
+        self.preconditions.row(operator.index())
+    }
+
+    /// The facts that an operator makes true whenever it is applied.
+    #[inline]
+    pub fn effects(&self, operator: OperatorId) -> &[FactId] {
+        self.effects.row(operator.index())
+    }
+
+    /// The facts that an operator makes true under a condition: the condition and the fact.
+    pub fn conditional_effects(&self, operator: OperatorId) -> impl Iterator<Item = (&[FactId], FactId)> {
+        let effects = self.conditional.row(operator.index());
+        effects.iter().map(|effect| (self.effect_conditions.row(effect.condition as usize), effect.fact))
+    }
+
+    /// Whether a fact holds in a state.
+    #[inline]
+    pub fn holds(&self, state: &[u64], fact: FactId) -> bool {
+        self.facts[fact.index()].holds(state)
+    }
+
+    /// Whether an operator can be applied in a state.
+    pub fn applicable(&self, state: &[u64], operator: OperatorId) -> bool {
+        self.preconditions(operator).iter().all(|&fact| self.holds(state, fact))
+    }
+
+    /// Whether a state reaches the goal.
+    #[inline]
+    pub fn is_goal(&self, state: &[u64]) -> bool {
+        self.goal.iter().all(|&fact| self.holds(state, fact))
+    }
+
+    /// Writes into `next` the state after `operator` in `state`.
+    #[inline]
+    pub fn apply(&self, state: &[u64], operator: OperatorId, next: &mut [u64]) {
+        next.copy_from_slice(state);
+        for write in self.writes.row(operator.index()) {
+            let word = &mut next[write.word as usize];
+            *word = *word & !write.clear | write.set;
+        }
+        for effect in self.conditional.row(operator.index()) {
+            let condition = self.effect_conditions.row(effect.condition as usize);
+            if condition.iter().all(|&fact| self.holds(state, fact)) {
+                self.facts[effect.fact.index()].set(next);
+            }
+        }
+        if !self.axioms.is_empty() {
+            self.evaluate_axioms(next);
+        }
+    }
+
+    /// Gives the derived variables their values (Thiébaux, Hoffmann & Nebel 2005, "In defense of PDDL
+    /// axioms", section 2: layer by layer, each to its least fixpoint).
+    pub(crate) fn evaluate_axioms(&self, state: &mut [u64]) {
+        for &(word, mask) in &self.derived_masks {
+            state[word] &= !mask;
+        }
+        for layer in &self.axiom_layers {
+            loop {
+                let mut changed = false;
+                for axiom in &self.axioms[layer.clone()] {
+                    let head = &self.facts[axiom.head.index()];
+                    let body = self.axiom_bodies.row(axiom.body as usize);
+                    if !head.holds(state) && body.iter().all(|&fact| self.holds(state, fact)) {
+                        head.set(state);
+                        changed = true;
+                    }
+                }
+                if !changed || !self.recursive_axioms {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// The action an operator stands for, with the spelling of the declarations.
+    pub fn act(&self, operator: OperatorId) -> GroundAct {
+        let operator = &self.operators[operator.index()];
+        let (name, params) = &self.names.schemas[operator.schema as usize];
+        let args = &self.names.args[operator.args as usize..operator.args as usize + params];
+        GroundAct {
+            action: name.clone(),
+            args: args.iter().map(|&object| self.names.objects[object as usize].clone()).collect(),
+        }
+    }
+
+    /// The plan that applies `operators` in order.
+    pub fn plan(&self, operators: &[OperatorId]) -> Plan {
+        Plan {
+            acts: operators.iter().map(|&operator| self.act(operator)).collect(),
+            cost: operators.iter().map(|&operator| self.operators[operator.index()].cost).sum(),
+        }
+    }
+
+    /// The atom a fact is about and whether it holds; `None` for facts no text names: a derived condition,
+    /// or "none of several atoms holds".
+    pub fn literal(&self, fact: FactId) -> Option<Literal> {
+        let (atom, holds) = self.facts[fact.index()].atom?;
+        match &self.names.atoms[atom as usize] {
+            AtomText::Condition(_) => None,
+            AtomText::Atom { predicate, args } => {
+                let args = &self.names.args[args.start as usize..args.end as usize];
+                let atom = GroundAtom {
+                    predicate: self.names.predicates[*predicate as usize].clone(),
+                    args: args.iter().map(|&object| self.names.objects[object as usize].clone()).collect(),
+                };
+                Some(Literal { atom, holds })
+            }
+        }
+    }
+
+    /// A fact as text.
+    pub fn fact_text(&self, fact: FactId) -> String {
+        if let Some(literal) = self.literal(fact) {
+            let args: String = literal.atom.args.iter().map(|arg| format!(" {arg}")).collect();
+            let text = format!("({}{args})", literal.atom.predicate);
+            return if literal.holds { text } else { format!("(not {text})") };
+        }
+        match self.facts[fact.index()].atom {
+            Some((atom, holds)) => match &self.names.atoms[atom as usize] {
+                AtomText::Condition(text) if holds => text.clone(),
+                AtomText::Condition(text) => format!("(not {text})"),
+                AtomText::Atom { .. } => String::new(),
+            },
+            None => format!("none of the values of variable {}", self.facts[fact.index()].variable),
+        }
+    }
+
+    /// The facts of all variables in a state.
+    pub(crate) fn facts_of<'a>(&'a self, state: &'a [u64]) -> impl Iterator<Item = FactId> + 'a {
+        self.variables.iter().map(|variable| variable.fact(state))
+    }
+}
+
+impl fmt::Display for Task {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} variables, {} facts, {} operators, {} axioms, {} words a state",
+            self.variables.len(),
+            self.facts.len(),
+            self.operators.len(),
+            self.axioms.len(),
+            self.words
+        )
+    }
+}
