@@ -19,6 +19,7 @@ use crate::combine::world_state;
 use crate::problem::member_problem;
 use crate::reason::why_infeasible;
 use crate::assign::{Work, assign};
+use crate::parts::{condition_from, independent_parts};
 use crate::split::{segments, team_plan};
 use crate::team::Team;
 use crate::understand::Subgoal;
@@ -145,7 +146,7 @@ struct Allocator<'a> {
 }
 
 impl Allocator<'_> {
-    /// Makes a sub-task into items.
+    /// Makes a sub-task into items: its independent parts may go to different robots.
     fn take(&mut self, index: usize) -> Result<(), NoAllocation> {
         let subgoal = &self.input.subgoals[index];
         let infeasible = |e: String| NoAllocation::Infeasible(format!("\"{}\": {e}", subgoal.text));
@@ -155,25 +156,37 @@ impl Allocator<'_> {
             .filter(|&i| self.items[i].finishing && subgoal.after.contains(&self.items[i].subgoal))
             .collect();
         let state = self.state_after(&asked);
-        if subgoal.after.is_empty() && self.interpreter.holds(&state, &ground) {
-            return Ok(());
+        for part in independent_parts(&ground) {
+            if !subgoal.after.is_empty() || !self.interpreter.holds(&state, &part) {
+                self.take_part(index, condition_from(&part), &asked, &state)?;
+            }
         }
-        let (bids, gave_up) = self.bids(Some(index), &subgoal.goal, &state);
+        Ok(())
+    }
+
+    fn take_part(
+        &mut self,
+        index: usize,
+        goal: Condition,
+        asked: &[usize],
+        state: &WorldState,
+    ) -> Result<(), NoAllocation> {
+        let (bids, gave_up) = self.bids(Some(index), &goal, state);
         if !bids.is_empty() {
-            self.push(index, subgoal.goal.clone(), asked.clone(), asked, bids);
+            self.push(index, goal, asked.to_vec(), asked.to_vec(), bids);
             return Ok(());
         }
         // What others were found to need may be all that is missing here, too.
         let opened: Vec<usize> = (0..self.items.len()).filter(|&i| !self.items[i].finishing).collect();
-        let after = union(&asked, &opened);
+        let after = union(asked, &opened);
         if !opened.is_empty() {
-            let (bids, _) = self.bids(Some(index), &subgoal.goal, &self.state_after(&after));
+            let (bids, _) = self.bids(Some(index), &goal, &self.state_after(&after));
             if !bids.is_empty() {
-                self.push(index, subgoal.goal.clone(), after, asked, bids);
+                self.push(index, goal, after, asked.to_vec(), bids);
                 return Ok(());
             }
         }
-        self.split(index, asked, &state, gave_up)
+        self.split(index, &goal, asked, state, gave_up)
     }
 
     fn push(
@@ -241,12 +254,13 @@ impl Allocator<'_> {
     fn split(
         &mut self,
         index: usize,
-        asked: Vec<usize>,
+        goal: &Condition,
+        asked: &[usize],
         state: &WorldState,
         gave_up: Option<String>,
     ) -> Result<(), NoAllocation> {
         let subgoal = &self.input.subgoals[index];
-        let (team, available, goal) = (&self.input.team, &self.input.available, &subgoal.goal);
+        let (team, available) = (&self.input.team, &self.input.available);
         let limits = self.limits();
         let plan = match team_plan(team, available, &state.facts, &[], goal, &limits, self.cancel) {
             Ok(Outcome::Found(plan)) => plan,
@@ -264,13 +278,13 @@ impl Allocator<'_> {
         let base = self.items.len();
         for segment in segments {
             let handed: Vec<usize> = segment.after.iter().map(|k| base + k).collect();
-            let after = union(&asked, &handed);
+            let after = union(asked, &handed);
             let (bids, _) = self.bids(None, &segment.goal, &self.state_after(&after));
             self.items.push(Item {
                 subgoal: index,
                 goal: segment.goal,
                 after,
-                asked: asked.clone(),
+                asked: asked.to_vec(),
                 bids,
                 fallback: Some((segment.member, segment.acts)),
                 finishing: segment.finishing,

@@ -1,7 +1,7 @@
 //! The Sub-Plan Combiner: a valid linear plan of the team becomes a partial order with gates.
 
 use lamma_pddl::ast::Condition;
-use lamma_planner::interpreter::{Interpreter, WorldState};
+use lamma_planner::interpreter::{GroundCondition, Interpreter, WorldState};
 use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder, literal_effects};
 use lamma_protocol::message::{Act, Gate, Step};
 use lamma_protocol::{AgentId, StepIndex};
@@ -43,10 +43,33 @@ pub fn combine(
     goal: &Condition,
 ) -> Result<TeamPlan, String> {
     let ground = interpreter.ground_condition(goal).map_err(|e| e.to_string())?;
+    let merger = &without_idle_steps(interpreter, merger, &ground);
     let keep = asked_order(interpreter, merger, packages)?;
     let order = deorder(interpreter, &merger.initial, merger.steps.clone(), &ground, &keep)
         .map_err(|(i, violation)| format!("step {i} of the merged plan: {violation}"))?;
     Ok(team_plan(team, &order))
+}
+
+/// Steps beyond which idle ones are not looked for: the search is quadratic.
+const MAX_ELIMINATION: usize = 120;
+
+/// Leaves out steps without which everything still works, as a way to a fridge that somebody else has
+/// opened (action elimination, Nakhost & Müller, "Action elimination and plan neighborhood graph search",
+/// ICAPS 2010). Every package's own goal stays reached where its steps end.
+fn without_idle_steps(interpreter: &Interpreter, merger: &Merger, goal: &GroundCondition) -> Merger {
+    let mut best = merger.clone();
+    if best.steps.len() > MAX_ELIMINATION {
+        return best;
+    }
+    let mut i = best.steps.len();
+    while i > 0 {
+        i -= 1;
+        let shorter = best.without(i);
+        if shorter.is_valid(interpreter, goal) {
+            best = shorter;
+        }
+    }
+    best
 }
 
 /// The orderings the instruction asks for: where one package is to be done after another, the steps that

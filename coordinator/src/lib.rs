@@ -14,6 +14,7 @@ pub mod decompose;
 pub mod job;
 pub mod machine;
 pub mod merge;
+pub mod parts;
 mod phase;
 pub mod problem;
 mod reason;

@@ -29,6 +29,8 @@ pub struct MergedPackage {
     pub package: usize,
     /// Its steps.
     pub steps: std::ops::Range<usize>,
+    /// What holds when they are done.
+    pub goal: GroundCondition,
 }
 
 /// A package that does not fit after those before it.
@@ -77,9 +79,40 @@ impl Merger {
         }
         let start = self.steps.len();
         self.steps.extend(added);
-        self.packages.push(MergedPackage { package, steps: start..self.steps.len() });
+        let steps = start..self.steps.len();
+        self.packages.push(MergedPackage { package, steps, goal: goal.clone() });
         self.state = state;
         Ok(())
+    }
+
+    /// The same plan with one step left out.
+    pub fn without(&self, step: usize) -> Merger {
+        let mut shorter = self.clone();
+        shorter.steps.remove(step);
+        for package in &mut shorter.packages {
+            let moved = |at: usize| if at > step { at - 1 } else { at };
+            package.steps = moved(package.steps.start)..moved(package.steps.end);
+        }
+        shorter
+    }
+
+    /// Whether every step is possible, every package reaches its goal, and `goal` holds at the end.
+    pub fn is_valid(&self, interpreter: &Interpreter, goal: &GroundCondition) -> bool {
+        let mut state = self.initial.clone();
+        let mut packages = self.packages.iter().peekable();
+        for at in 0..=self.steps.len() {
+            while let Some(package) = packages.next_if(|p| p.steps.end == at) {
+                if !interpreter.holds(&state, &package.goal) {
+                    return false;
+                }
+            }
+            if let Some(step) = self.steps.get(at)
+                && interpreter.apply(&mut state, &step.action).is_err()
+            {
+                return false;
+            }
+        }
+        interpreter.holds(&state, goal)
     }
 }
 

@@ -1,5 +1,6 @@
 //! The team as planning sees it: ⟨agents, domain, objects⟩, each agent with its own domain.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lamma_pddl::Name;
@@ -41,6 +42,9 @@ pub struct Team {
     pub objects: Vec<TypedName>,
     /// Obstacles that can be named when a goal is out of reach.
     pub relaxations: Vec<Relaxation>,
+    /// Facts by which the world itself says that a member has a skill, per action; none where the members'
+    /// domains alone say so.
+    pub skill_facts: BTreeMap<Name, Vec<GroundAtom>>,
 }
 
 fn skill_predicate(action: &Name) -> Name {
@@ -95,7 +99,9 @@ impl Team {
                 let fact = |&m: &usize| {
                     GroundAtom::new(skill_predicate(&a.name), [self.members[m].name.clone()])
                 };
-                (a.name.clone(), available.iter().map(fact).collect())
+                let own = available.iter().map(fact);
+                let told = self.skill_facts.get(&a.name).into_iter().flatten().cloned();
+                (a.name.clone(), own.chain(told).collect())
             })
             .collect()
     }

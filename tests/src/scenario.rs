@@ -76,6 +76,7 @@ impl Scenario {
             domain: Arc::new(project(&all)),
             objects: objects.clone(),
             relaxations: Vec::new(),
+            skill_facts: Default::default(),
         });
         let condition = |text: &str| parse_condition(text).expect("the goal parses");
         let group = |(text, goal, _): &(&str, &str, Vec<usize>)| GoalGroup {

@@ -83,13 +83,15 @@ impl Robot {
             Order::Stand => {}
             Order::Plan(packages) => self.plan(packages),
             Order::Execute(steps) => self.execute(steps),
-            Order::Leave => {
-                self.cancel_jobs();
-                self.phase = Phase::Left;
-                self.outputs.push_back(Output::Finish);
-            }
+            Order::Leave => self.leave(),
         }
         self.report();
+    }
+
+    fn leave(&mut self) {
+        self.cancel_jobs();
+        self.phase = Phase::Left;
+        self.outputs.push_back(Output::Finish);
     }
 
     /// A new epoch voids everything of the old.
@@ -210,8 +212,10 @@ impl Machine for Robot {
                         }
                     }
                 }
-                Message::Command(_)
-                | Message::Outcome(_)
+                Message::Command(command) if command.stop => self.leave(),
+                // Who is lost is the coordinator's affair.
+                Message::Command(_) => {}
+                Message::Outcome(_)
                 | Message::Grant(_)
                 | Message::Report(_)
                 | Message::Request(_)

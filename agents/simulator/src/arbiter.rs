@@ -340,6 +340,11 @@ impl Machine for Arbiter {
                 (Topic::Request(agent), Message::Request(request)) => {
                     self.request(now, agent, envelope.revision, request);
                 }
+                (Topic::Command, Message::Command(command)) => {
+                    if command.stop {
+                        self.outputs.push_back(Output::Finish);
+                    }
+                }
                 (topic, _) => self.outputs.push_back(Output::Log(format!("nothing to do with {topic}"))),
             },
             Input::Timeout => {

@@ -7,7 +7,7 @@ use crate::id::{AgentId, Node};
 /// A topic of a run. How topics become shared-memory services or Zenoh keys is the bus's business alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Topic {
-    /// Supervisor: what to do, and who is lost.
+    /// Supervisor to all: who is lost, and that the run is over.
     Command,
     /// Coordinator: phase, events and in the end the outcome.
     Outcome,
@@ -41,7 +41,8 @@ impl Topic {
     /// Whether `node` listens to it.
     pub fn read_by(self, node: Node) -> bool {
         match self {
-            Topic::Command | Topic::Report(_) => node == Node::Coordinator,
+            Topic::Command => node != Node::Supervisor,
+            Topic::Report(_) => node == Node::Coordinator,
             Topic::Outcome => node == Node::Supervisor,
             Topic::Grant | Topic::Request(_) => node == Node::Simulator,
             Topic::Directive(a) | Topic::Ack(a) => node == Node::Robot(a),

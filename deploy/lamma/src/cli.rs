@@ -1,0 +1,229 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Teams of robots that plan, act and survive.
+#[derive(Debug, Parser)]
+#[command(name = "lamma", version, about, max_term_width = 100, subcommand_required = true)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+
+    /// More in the logs: -v for info, -vv for debug, -vvv for trace.
+    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    pub verbose: u8,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Carry out an instruction with a team of robot processes.
+    Run(RunArgs),
+    /// Everything but execution: print the combined plan, its makespan and the lower bound.
+    Solve(RunArgs),
+    /// Plan one classical PDDL task and print the plan in the IPC format.
+    Plan(PlanArgs),
+    /// Check a plan against its task: 0 valid, 1 not, with the failing step and the missing fact.
+    Validate(ValidateArgs),
+    /// Run a suite of tasks and print the metric table.
+    Bench(BenchArgs),
+    /// Remove what crashed runs have left behind.
+    Clean,
+    /// Explain a diagnostic code, such as `pddl::unknown-predicate`.
+    Explain {
+        /// The code.
+        code: String,
+    },
+    /// List scenes or robots.
+    List {
+        /// What to list.
+        #[arg(value_enum, default_value = "scenes")]
+        what: ListWhat,
+    },
+    /// Print a completion script for a shell.
+    Completions {
+        /// Which shell.
+        shell: clap_complete::Shell,
+    },
+    /// A robot process (started by `lamma run`).
+    #[command(hide = true)]
+    Robot(ChildArgs),
+    /// The coordinator process (started by `lamma run`).
+    #[command(hide = true)]
+    Coordinator(ChildArgs),
+    /// The simulator process (started by `lamma run`).
+    #[command(hide = true)]
+    Simulator(ChildArgs),
+}
+
+/// See [`Command::List`].
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ListWhat {
+    /// The floor plans.
+    Scenes,
+    /// The robots of the catalogue, with skills and capacity.
+    Robots,
+}
+
+/// What `run` and `solve` take.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// The instruction, in plain English.
+    pub instruction: String,
+    /// The scene, such as FloorPlan6.
+    #[arg(long)]
+    pub scene: String,
+    /// The robots, by their names in the catalogue, separated by commas.
+    #[arg(long, value_delimiter = ',', required = true)]
+    pub team: Vec<String>,
+    /// Options shared with other commands.
+    #[command(flatten)]
+    pub common: CommonArgs,
+}
+
+/// Options of all commands that run teams.
+#[derive(Clone, Debug, Args)]
+pub struct CommonArgs {
+    /// The transport between the processes; `inproc` runs the same machines in one process.
+    #[arg(long, value_enum, default_value = "iceoryx2")]
+    pub bus: BusArg,
+    /// The language model: offline, openai, record:FILE or replay:FILE.
+    #[arg(long, default_value = "offline")]
+    pub lm: String,
+    /// Base URL of the chat-completions endpoint, for `--lm openai` [env: OPENAI_BASE_URL].
+    #[arg(long)]
+    pub lm_url: Option<String>,
+    /// Model name, for `--lm openai` [env: LAMMA_LM_MODEL].
+    #[arg(long)]
+    pub lm_model: Option<String>,
+    /// Seed of everything that is placed or drawn by chance.
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    /// Where logs and artefacts of the run go [default: .lamma/runs/<id>].
+    #[arg(long)]
+    pub run_dir: Option<PathBuf>,
+    /// How to print the result.
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: Format,
+    /// Take the best reading of the instruction instead of asking.
+    #[arg(long)]
+    pub assume: bool,
+    /// Give up after this many seconds.
+    #[arg(long, default_value_t = 120.0, value_parser = seconds)]
+    pub time_limit: f64,
+    /// How long the simulator takes for each action, in milliseconds: to watch, or to interfere.
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(..=60_000))]
+    pub step_ms: u64,
+}
+
+/// Transports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum BusArg {
+    /// Shared memory between processes on one host.
+    #[value(name = "iceoryx2")]
+    Iceoryx2,
+    /// One process, one thread per machine.
+    Inproc,
+    /// Zenoh, between hosts.
+    Zenoh,
+}
+
+/// Output formats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// For people.
+    Text,
+    /// One JSON object on standard output.
+    Json,
+}
+
+/// See [`Command::Plan`].
+#[derive(Debug, Args)]
+pub struct PlanArgs {
+    /// The domain file.
+    pub domain: PathBuf,
+    /// The problem file.
+    pub problem: PathBuf,
+    /// The search: auto, or a name the planner lists when it does not know one.
+    #[arg(long, default_value = "auto")]
+    pub search: String,
+    /// Give up after this many seconds.
+    #[arg(long, value_parser = seconds)]
+    pub time_limit: Option<f64>,
+    /// Give up above this much memory, in MiB.
+    #[arg(long)]
+    pub memory_limit: Option<usize>,
+    /// Write the plan to this file too.
+    #[arg(long)]
+    pub plan_file: Option<PathBuf>,
+    /// Print the grounded task instead of planning.
+    #[arg(long)]
+    pub sas: bool,
+    /// How to print the result.
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: Format,
+}
+
+/// See [`Command::Validate`].
+#[derive(Debug, Args)]
+pub struct ValidateArgs {
+    /// The domain file.
+    pub domain: PathBuf,
+    /// The problem file.
+    pub problem: PathBuf,
+    /// The plan file.
+    pub plan: PathBuf,
+}
+
+/// See [`Command::Bench`].
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// A task file, one JSON object a line.
+    #[arg(long, conflicts_with = "mat_thor", required_unless_present = "mat_thor")]
+    pub tasks: Option<PathBuf>,
+    /// A folder of MAT-THOR task files, read as they were released.
+    #[arg(long)]
+    pub mat_thor: Option<PathBuf>,
+    /// The robots of the MAT-THOR files [default: the catalogue].
+    #[arg(long, requires = "mat_thor")]
+    pub robots: Option<PathBuf>,
+    /// Only tasks whose id contains this.
+    #[arg(long)]
+    pub only: Option<String>,
+    /// Tasks at once.
+    #[arg(long, default_value_t = 1)]
+    pub jobs: usize,
+    /// Write results.json and results.csv to this folder.
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+    /// Plan for the tasks' own goals instead of understanding their sentences.
+    #[arg(long)]
+    pub goals_given: bool,
+    /// Options shared with other commands.
+    #[command(flatten)]
+    pub common: CommonArgs,
+}
+
+/// How a child process finds its run.
+#[derive(Debug, Args)]
+pub struct ChildArgs {
+    /// The folder of the run.
+    #[arg(long)]
+    pub run_dir: PathBuf,
+    /// The shared memory of the run.
+    #[arg(long)]
+    pub scope: lamma_bus::iceoryx::Scope,
+    /// Which member of the team, for robots.
+    #[arg(long, default_value_t = 0)]
+    pub agent: u16,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(s) if s.is_finite() && s > 0.0 && s < 1e9 => Ok(s),
+        _ => Err("a positive number of seconds is expected".into()),
+    }
+}

@@ -1,0 +1,189 @@
+//! `lamma bench`: a suite of tasks, each a run of its own, and the metric table.
+
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+use std::time::Instant;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use lamma_coordinator::result::{OutcomeKind, RunResult};
+use lamma_domains::robots::team;
+use serde_json::{Value, json};
+
+use crate::cli::{BenchArgs, Format};
+use crate::commands::run::{check_lm, spec_from};
+use crate::error::Failure;
+use crate::exit;
+use crate::json;
+use crate::launch::launch;
+use crate::spec::{RunSpec, Task};
+use crate::suite::{self, Entry, Suite};
+use crate::supervise::RunDir;
+use crate::table::{self, Row};
+use crate::watch::Silent;
+
+/// One finished task.
+pub struct Finished {
+    /// Which.
+    pub index: usize,
+    /// Its result.
+    pub result: RunResult,
+    /// As the contract prints it.
+    pub json: Value,
+}
+
+/// Runs the suite; 0 if every task could be run, whatever came of it.
+pub fn bench(args: &BenchArgs) -> Result<u8, Failure> {
+    let mut suite = suite::read(args)?;
+    if let Some(only) = &args.only {
+        suite.entries.retain(|e| e.task.id.contains(only.as_str()));
+        if suite.entries.is_empty() {
+            return Err(Failure::bad_input(format!("no task of {} has {only:?} in its id", suite.name)));
+        }
+    }
+    check_lm(&spec_from(&args.common, Task::Goal(Vec::new())))?;
+    for note in &suite.notes {
+        eprintln!("{note}");
+    }
+    let start = Instant::now();
+    let finished = run_all(args, &suite)?;
+    report(args, &suite, &finished, start.elapsed().as_secs_f64())?;
+    let broken = finished.iter().any(|f| f.result.outcome == OutcomeKind::Error);
+    Ok(if broken { exit::FAULT } else { exit::SUCCESS })
+}
+
+fn run_all(args: &BenchArgs, suite: &Suite) -> Result<Vec<Finished>, Failure> {
+    let folder = RunDir::create(args.common.run_dir.as_deref()).map_err(Failure::bad_input)?;
+    let bar = progress(suite.entries.len() as u64);
+    let next = Mutex::new(0usize);
+    let done: Mutex<Vec<Finished>> = Mutex::new(Vec::new());
+    let worker = || {
+        loop {
+            let index = {
+                let mut next = next.lock().unwrap_or_else(|e| e.into_inner());
+                let index = *next;
+                *next += 1;
+                index
+            };
+            let Some(entry) = suite.entries.get(index) else { return };
+            bar.set_message(entry.task.id.clone());
+            let finished = run_one(args, folder.path(), index, entry);
+            bar.println(line(entry, &finished.result));
+            bar.inc(1);
+            done.lock().unwrap_or_else(|e| e.into_inner()).push(finished);
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..args.jobs.clamp(1, 64) {
+            scope.spawn(worker);
+        }
+    });
+    bar.finish_and_clear();
+    let mut done = done.into_inner().unwrap_or_else(|e| e.into_inner());
+    done.sort_by_key(|f| f.index);
+    Ok(done)
+}
+
+fn progress(total: u64) -> ProgressBar {
+    let bar = ProgressBar::new(total);
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {elapsed} {msg}") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+fn line(entry: &Entry, result: &RunResult) -> String {
+    let outcome = serde_json::to_value(result.outcome).unwrap_or_default();
+    let outcome = outcome.as_str().unwrap_or("?");
+    let reason = result.reason.as_deref().unwrap_or("");
+    let makespan = if result.outcome == OutcomeKind::Success {
+        format!("makespan {} (at least {})", result.plan.makespan, result.plan.makespan_lower_bound)
+    } else {
+        String::new()
+    };
+    format!("{:<28} {outcome:<20} {makespan}{reason}", entry.task.id)
+}
+
+fn run_one(args: &BenchArgs, folder: &Path, index: usize, entry: &Entry) -> Finished {
+    let folder = folder.join(&entry.task.id);
+    let (result, mut json) = match try_one(args, &folder, entry) {
+        Ok((result, json)) => (result, json),
+        Err(failure) => {
+            let kind = if failure.code == exit::BAD_INPUT { OutcomeKind::Infeasible } else { OutcomeKind::Error };
+            let result = RunResult::unfinished(kind, failure.text);
+            let json = serde_json::to_value(&result).unwrap_or_default();
+            (result, json)
+        }
+    };
+    if let Value::Object(object) = &mut json {
+        object.insert("id".into(), json!(entry.task.id));
+        object.insert("category".into(), json!(entry.task.category));
+        object.insert("instruction".into(), json!(entry.task.instruction));
+        if !entry.repairs.is_empty() {
+            object.insert("repairs".into(), json!(entry.repairs));
+        }
+        if let Some(why) = &entry.set_aside {
+            object.insert("set_aside".into(), json!(why));
+        }
+    }
+    Finished { index, result, json }
+}
+
+fn try_one(args: &BenchArgs, folder: &Path, entry: &Entry) -> Result<(RunResult, Value), Failure> {
+    if let Some(why) = &entry.impossible {
+        return Err(Failure::bad_input(format!("the goal cannot hold in this scene: {why}")));
+    }
+    let spec = spec(args, entry)?;
+    let world = Arc::new(spec.world()?);
+    std::fs::create_dir_all(folder.join("logs")).map_err(|e| Failure::io("create", folder, &e))?;
+    let launched = launch(spec, world, args.common.bus, folder, &mut Silent)?;
+    let json = json::run(&launched, &args.common);
+    Ok((launched.result, json))
+}
+
+fn spec(args: &BenchArgs, entry: &Entry) -> Result<RunSpec, Failure> {
+    let task = &entry.task;
+    let wanted = if args.goals_given {
+        Task::Goal(task.goal.clone())
+    } else {
+        Task::Instruction { text: task.instruction.clone(), assume: args.common.assume }
+    };
+    let mut spec = spec_from(&args.common, wanted);
+    spec.id = task.id.clone();
+    spec.scene = task.scene.clone();
+    spec.team = team(&task.team).map_err(Failure::bad_input)?;
+    spec.objects = task.objects.clone();
+    spec.knife_free = task.rules.knife_free;
+    spec.score = Some(task.goal.clone());
+    spec.reference = task.reference.map(|r| (f64::from(r.makespan), r.steps as usize));
+    Ok(spec)
+}
+
+fn report(args: &BenchArgs, suite: &Suite, finished: &[Finished], seconds: f64) -> Result<(), Failure> {
+    let rows = table::rows(suite, finished);
+    let value = json!({
+        "suite": suite.name,
+        "seed": args.common.seed,
+        "tasks": finished.iter().map(|f| &f.json).collect::<Vec<_>>(),
+        "table": rows.iter().map(|r| (r.name.clone(), r.json())).collect::<serde_json::Map<_, _>>(),
+    });
+    if let Some(out) = &args.out {
+        write_out(out, &value, suite, finished)?;
+    }
+    match args.common.format {
+        Format::Json => println!("{}", serde_json::to_string(&value).map_err(Failure::fault)?),
+        Format::Text => {
+            print!("{}", table::text(&suite.name, &rows));
+            let n = finished.len();
+            println!("{n} tasks in {seconds:.1} s; seed {}; goals judged on the simulator's state", args.common.seed);
+        }
+    }
+    Ok(())
+}
+
+fn write_out(out: &Path, value: &Value, suite: &Suite, finished: &[Finished]) -> Result<(), Failure> {
+    let fail = |e: &std::io::Error| Failure::bad_input(format!("cannot write to {}: {e}", out.display()));
+    std::fs::create_dir_all(out).map_err(|e| fail(&e))?;
+    let text = serde_json::to_string_pretty(value).map_err(Failure::fault)?;
+    std::fs::write(out.join("results.json"), text).map_err(|e| fail(&e))?;
+    std::fs::write(out.join("results.csv"), Row::csv(suite, finished)).map_err(|e| fail(&e))
+}

@@ -1,0 +1,23 @@
+//! One module per command.
+
+pub mod bench;
+pub mod clean;
+pub mod explain;
+pub mod list;
+pub mod plan;
+pub mod run;
+pub mod validate;
+
+use std::path::Path;
+
+use lamma_pddl::Source;
+
+use crate::error::Failure;
+
+/// A file the user named, as PDDL source.
+pub fn read_source(path: &Path) -> Result<Source, Failure> {
+    let bytes = std::fs::read(path).map_err(|e| Failure::unreadable(path, &e))?;
+    // A stray byte in a comment is no reason to refuse a file.
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    Ok(Source::new(path.display().to_string(), text))
+}

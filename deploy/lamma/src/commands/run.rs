@@ -1,0 +1,107 @@
+//! `lamma run` and `lamma solve`.
+
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use lamma_domains::robots::{Member, team};
+use lamma_domains::world::WorldSetup;
+
+use crate::cli::{CommonArgs, Format, RunArgs};
+use crate::error::Failure;
+use crate::exit;
+use crate::json;
+use crate::launch::{Launched, launch};
+use crate::show;
+use crate::spec::{LmSpec, RunSpec, Task};
+use crate::supervise::RunDir;
+use crate::watch::{Lines, Watcher};
+
+/// Runs the instruction (or, for `solve_only`, stops at the plan) and prints the outcome.
+pub fn run(args: &RunArgs, solve_only: bool) -> Result<u8, Failure> {
+    let mut spec = spec_from(&args.common, Task::Instruction {
+        text: instruction(&args.instruction)?,
+        assume: args.common.assume,
+    });
+    spec.scene = args.scene.clone();
+    let members: Vec<Member> = args.team.iter().map(|name| Member::Named(name.trim().to_string())).collect();
+    spec.team = team(&members).map_err(Failure::bad_input)?;
+    spec.solve_only = solve_only;
+    check_lm(&spec)?;
+    let world = Arc::new(spec.world()?);
+    let launched = in_folder(spec, world, &args.common, lines(args.common.format).as_mut())?;
+    print(&launched, &args.common)?;
+    Ok(exit::of(launched.result.outcome))
+}
+
+fn instruction(text: &str) -> Result<String, Failure> {
+    match text.trim() {
+        "" => Err(Failure::bad_input("the instruction is empty; say what the team shall do")),
+        text => Ok(text.to_string()),
+    }
+}
+
+/// A spec with what the common options say; scene and team are left to the caller.
+pub fn spec_from(common: &CommonArgs, task: Task) -> RunSpec {
+    RunSpec {
+        id: String::new(),
+        seed: common.seed,
+        scene: String::new(),
+        team: Vec::new(),
+        objects: None,
+        knife_free: false,
+        task,
+        score: None,
+        reference: None,
+        solve_only: false,
+        lm: LmSpec { spec: common.lm.clone(), url: common.lm_url.clone(), model: common.lm_model.clone() },
+        // Bounded by the parser of the option.
+        time_limit_ms: (common.time_limit * 1e3) as u64,
+        step_ms: common.step_ms,
+    }
+}
+
+/// A wrong `--lm` is the user's mistake and is told before anything starts.
+pub fn check_lm(spec: &RunSpec) -> Result<(), Failure> {
+    crate::process::language_model(spec).map(drop)
+}
+
+/// Makes the run's folder and launches.
+pub fn in_folder(
+    mut spec: RunSpec,
+    world: Arc<WorldSetup>,
+    common: &CommonArgs,
+    watcher: &mut dyn Watcher,
+) -> Result<Launched, Failure> {
+    let folder = RunDir::create(common.run_dir.as_deref()).map_err(Failure::bad_input)?;
+    spec.id = folder.id().to_string();
+    let path: PathBuf = folder.path().to_path_buf();
+    let launched = launch(spec, world, common.bus, &path, watcher)?;
+    let text = serde_json::to_string_pretty(&json::run(&launched, common)).map_err(Failure::fault)?;
+    let file = path.join("result.json");
+    std::fs::write(&file, text).map_err(|e| Failure::io("write", &file, &e))?;
+    Ok(launched)
+}
+
+/// Progress goes to standard output with the rest, or to standard error where that is kept for JSON.
+fn lines(format: Format) -> Box<dyn Watcher> {
+    match format {
+        Format::Text => Box::new(Lines::new(anstream::stdout())),
+        Format::Json if std::io::stderr().is_terminal() => Box::new(Lines::new(anstream::stderr())),
+        Format::Json => Box::new(crate::watch::Silent),
+    }
+}
+
+fn print(launched: &Launched, common: &CommonArgs) -> Result<(), Failure> {
+    match common.format {
+        Format::Text => {
+            anstream::print!("{}", show::result(&launched.result));
+            anstream::println!("         run folder {}", launched.folder.display());
+        }
+        Format::Json => {
+            let json = json::run(launched, common);
+            println!("{}", serde_json::to_string(&json).map_err(Failure::fault)?);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,43 @@
+//! Failures of a command: what to print, and the exit code.
+
+use std::fmt;
+use std::path::Path;
+
+use crate::exit;
+
+/// Why a command cannot do what it was asked.
+#[derive(Debug)]
+pub struct Failure {
+    /// The exit code of the contract.
+    pub code: u8,
+    /// What to print, whole.
+    pub text: String,
+}
+
+impl Failure {
+    /// The input is at fault.
+    pub fn bad_input(text: impl fmt::Display) -> Self {
+        Failure { code: exit::BAD_INPUT, text: text.to_string() }
+    }
+
+    /// The software or the host is at fault.
+    pub fn fault(text: impl fmt::Display) -> Self {
+        Failure { code: exit::FAULT, text: text.to_string() }
+    }
+
+    /// A file named by the user cannot be used.
+    pub fn unreadable(path: &Path, error: &std::io::Error) -> Self {
+        Failure::bad_input(format!("cannot read {}: {error}", path.display()))
+    }
+
+    /// A file of our own cannot be used.
+    pub fn io(verb: &str, path: &Path, error: &std::io::Error) -> Self {
+        Failure::fault(format!("cannot {verb} {}: {error}", path.display()))
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}

@@ -1,0 +1,30 @@
+//! What `--format json` prints: the coordinator's result with what only the launcher knows.
+
+use serde_json::{Value, json};
+
+use crate::cli::{BusArg, CommonArgs};
+use crate::launch::Launched;
+
+/// One run, as the contract lays it out.
+pub fn run(launched: &Launched, common: &CommonArgs) -> Value {
+    let mut value = serde_json::to_value(&launched.result).unwrap_or_default();
+    let bus = match common.bus {
+        BusArg::Iceoryx2 => "iceoryx2",
+        BusArg::Inproc => "inproc",
+        BusArg::Zenoh => "zenoh",
+    };
+    if let Value::Object(object) = &mut value {
+        object.insert("run_dir".into(), json!(launched.folder));
+        object.insert("seed".into(), json!(common.seed));
+        object.insert("bus".into(), json!(bus));
+        object.insert("lm".into(), json!(common.lm));
+        object.insert("processes".into(), json!(launched.processes));
+        object.insert("elapsed_ms".into(), json!(launched.elapsed.as_secs_f64() * 1e3));
+    }
+    value
+}
+
+/// A failure before or beside a run.
+pub fn error(text: &str) -> Value {
+    json!({ "outcome": "error", "reason": text })
+}

@@ -1,0 +1,188 @@
+//! A run from start to end, seen from the outside: start the team, watch, tear down.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use lamma_bus::{Bus, Received};
+use lamma_coordinator::result::{OutcomeKind, RunResult};
+use lamma_domains::world::WorldSetup;
+use lamma_protocol::message::{Command, Outcome};
+use lamma_protocol::{AgentId, Envelope, Message, Node, Revision, Topic};
+use serde::Serialize;
+
+use crate::cli::BusArg;
+use crate::error::Failure;
+use crate::host::{Host, InprocHost, ProcessHost};
+use crate::spec::RunSpec;
+use crate::watch::Watcher;
+
+/// How long the team may take beyond its own limit before it counts as hung.
+const GRACE: Duration = Duration::from_secs(10);
+/// How often the supervisor repeats itself and looks for the dead when nothing wakes it.
+const PULSE: Duration = Duration::from_millis(50);
+
+/// A process of the run, for the record.
+#[derive(Clone, Debug, Serialize)]
+pub struct ProcessRecord {
+    /// `robot`, `coordinator` or `simulator`.
+    pub role: &'static str,
+    /// `robot1`, or the role.
+    pub name: String,
+    /// Its process id.
+    pub pid: u32,
+    /// How often it was started again.
+    pub restarts: u32,
+}
+
+/// What a run leaves.
+#[derive(Debug)]
+pub struct Launched {
+    /// The outcome.
+    pub result: RunResult,
+    /// Who took part.
+    pub processes: Vec<ProcessRecord>,
+    /// Logs and artefacts.
+    pub folder: PathBuf,
+    /// From the call to the end of the teardown.
+    pub elapsed: Duration,
+}
+
+/// Runs the spec. Whatever happens, nothing of the run is left when this returns.
+pub fn launch(
+    spec: RunSpec,
+    world: Arc<WorldSetup>,
+    bus: BusArg,
+    folder: &Path,
+    watcher: &mut dyn Watcher,
+) -> Result<Launched, Failure> {
+    let start = Instant::now();
+    spec.write(folder, &world)?;
+    let limit = Duration::from_millis(spec.time_limit_ms) + GRACE;
+    let spec = Arc::new(spec);
+    let mut host: Box<dyn Host> = match bus {
+        BusArg::Iceoryx2 => Box::new(ProcessHost::start(&spec, folder)?),
+        BusArg::Inproc => Box::new(InprocHost::start(&spec, &world, folder)?),
+        BusArg::Zenoh => {
+            return Err(Failure::bad_input(
+                "--bus zenoh is not built yet: use iceoryx2 (one host) or inproc (one process)",
+            ));
+        }
+    };
+    let watched = Supervisor::new(limit).watch(host.as_mut(), watcher);
+    let processes = host.processes();
+    let ended = host.end();
+    let result = watched?;
+    ended?;
+    let elapsed = start.elapsed();
+    Ok(Launched { result, processes, folder: folder.to_path_buf(), elapsed })
+}
+
+/// The supervisor's side of the conversation.
+struct Supervisor {
+    started: Instant,
+    limit: Duration,
+    command: Command,
+    revision: u64,
+    outcome: Option<(Revision, Outcome)>,
+    next_event: u64,
+    interrupted: bool,
+}
+
+impl Supervisor {
+    fn new(limit: Duration) -> Self {
+        Supervisor {
+            started: Instant::now(),
+            limit,
+            command: Command::default(),
+            revision: 0,
+            outcome: None,
+            next_event: 0,
+            interrupted: false,
+        }
+    }
+
+    fn watch(&mut self, host: &mut dyn Host, watcher: &mut dyn Watcher) -> Result<RunResult, Failure> {
+        loop {
+            let received = self.receive(host.bus());
+            self.tell(watcher);
+            if let Some(result) = self.result()? {
+                self.command.stop = true;
+                self.say(host.bus())?;
+                return Ok(result);
+            }
+            for death in host.deaths() {
+                self.died(death.node, &death.how)?;
+                self.say(host.bus())?;
+            }
+            if host.interrupted() && !self.interrupted {
+                self.interrupted = true;
+                self.command.stop = true;
+                self.say(host.bus())?;
+                return Ok(RunResult::unfinished(OutcomeKind::GaveUp, "interrupted"));
+            }
+            if self.started.elapsed() > self.limit {
+                return Err(Failure::fault(
+                    "the coordinator has not answered within the time limit; see its log in the run's folder",
+                ));
+            }
+            if !received {
+                host.bus().wait(Some(PULSE)).map_err(Failure::fault)?;
+            }
+        }
+    }
+
+    fn died(&mut self, node: Node, how: &str) -> Result<(), Failure> {
+        match node {
+            Node::Robot(agent) => {
+                self.command.lost.push(agent);
+                Ok(())
+            }
+            Node::Coordinator | Node::Simulator | Node::Supervisor => {
+                Err(Failure::fault(format!("the {node} has ended unexpectedly ({how}); see its log in the run's folder")))
+            }
+        }
+    }
+
+    fn say(&mut self, bus: &mut dyn Bus) -> Result<(), Failure> {
+        self.revision += 1;
+        let revision = Revision { incarnation: 0, number: self.revision };
+        let envelope = Envelope { revision, message: Message::Command(self.command.clone()) };
+        bus.publish(Topic::Command, &envelope).map_err(Failure::fault)
+    }
+
+    /// Takes what has come; false if nothing has.
+    fn receive(&mut self, bus: &mut dyn Bus) -> bool {
+        let newest = &mut self.outcome;
+        bus.receive(&mut |received| {
+            if let Received::Message(Topic::Outcome, envelope) = received
+                && let Message::Outcome(outcome) = envelope.message
+                && newest.as_ref().is_none_or(|(seen, _)| envelope.revision > *seen)
+            {
+                *newest = Some((envelope.revision, outcome));
+            }
+        }) > 0
+    }
+
+    fn tell(&mut self, watcher: &mut dyn Watcher) {
+        let Some((_, outcome)) = &self.outcome else { return };
+        for (number, event) in (outcome.first_event..).zip(&outcome.events) {
+            if number >= self.next_event {
+                watcher.event(event);
+                self.next_event = number + 1;
+            }
+        }
+    }
+
+    fn result(&self) -> Result<Option<RunResult>, Failure> {
+        let Some(json) = self.outcome.as_ref().and_then(|(_, outcome)| outcome.result.as_ref()) else {
+            return Ok(None);
+        };
+        serde_json::from_str(json).map(Some).map_err(|e| Failure::fault(format!("the coordinator's result: {e}")))
+    }
+}
+
+/// The members of the team that a run has.
+pub fn agents(spec: &RunSpec) -> impl Iterator<Item = (AgentId, &str)> {
+    (0..).map(AgentId).zip(spec.team.iter().map(|m| m.name.as_str()))
+}

@@ -1,0 +1,122 @@
+//! A run, as it is written into its folder for the processes to find.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use lamma_coordinator::decompose::Instruction;
+use lamma_domains::goal::GoalEntry;
+use lamma_domains::robots::Robot;
+use lamma_domains::world::{ObjectSpec, Rules, WorldSetup, setup_with};
+use serde::{Deserialize, Serialize};
+
+use crate::error::Failure;
+
+/// Everything the processes of a run need to know.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct RunSpec {
+    /// Names the run; unique on the host.
+    pub id: String,
+    /// Seed of everything drawn by chance.
+    pub seed: u64,
+    /// The scene.
+    pub scene: String,
+    /// The team.
+    pub team: Vec<Robot>,
+    /// Replaces the scene's movable objects.
+    pub objects: Option<Vec<ObjectSpec>>,
+    /// Slicing needs no knife.
+    pub knife_free: bool,
+    /// What is wanted.
+    pub task: Task,
+    /// What the outcome is judged by, if not by what was understood.
+    pub score: Option<Vec<GoalEntry>>,
+    /// Best known makespan and steps.
+    pub reference: Option<(f64, usize)>,
+    /// Stop when the plan is combined.
+    pub solve_only: bool,
+    /// The language model.
+    pub lm: LmSpec,
+    /// Give up after this many milliseconds.
+    pub time_limit_ms: u64,
+    /// How long a time step takes, in milliseconds.
+    pub step_ms: u64,
+}
+
+/// What is wanted.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum Task {
+    /// An instruction in plain English.
+    Instruction {
+        /// The sentence.
+        text: String,
+        /// Take the best reading instead of asking.
+        assume: bool,
+    },
+    /// A goal, given directly.
+    Goal(Vec<GoalEntry>),
+}
+
+/// Which language model, without its key.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct LmSpec {
+    /// `offline`, `openai`, `record:FILE`, `replay:FILE`.
+    pub spec: String,
+    /// Base URL.
+    pub url: Option<String>,
+    /// Model name.
+    pub model: Option<String>,
+}
+
+/// Bound of one search in a robot or the coordinator, in expanded states.
+pub const EXPANSIONS: u64 = 200_000;
+
+impl RunSpec {
+    /// The world of the run; the same for the same spec, in every process.
+    pub fn world(&self) -> Result<WorldSetup, Failure> {
+        let rules = Rules { knife_free: self.knife_free };
+        setup_with(&self.scene, &self.team, self.objects.as_deref(), self.seed, rules).map_err(Failure::bad_input)
+    }
+
+    /// The instruction, if the task is one.
+    pub fn instruction(&self) -> Option<Instruction> {
+        match &self.task {
+            Task::Instruction { text, assume } => Some(Instruction {
+                text: text.clone(),
+                assume: *assume,
+                deadline: Duration::from_millis(self.time_limit_ms / 2),
+            }),
+            Task::Goal(_) => None,
+        }
+    }
+
+    /// Writes the spec and each robot's own domain into the folder of the run.
+    pub fn write(&self, folder: &Path, world: &WorldSetup) -> Result<(), Failure> {
+        let robots = folder.join("robots");
+        fs::create_dir_all(&robots).map_err(|e| Failure::io("create", &robots, &e))?;
+        let write = |path: PathBuf, text: String| {
+            fs::write(&path, text).map_err(|e| Failure::io("write", &path, &e))
+        };
+        let json = serde_json::to_string_pretty(self).map_err(|e| Failure::fault(e.to_string()))?;
+        write(folder.join("run.json"), json)?;
+        for member in &world.members {
+            write(domain_file(folder, &member.name), member.domain.to_string())?;
+        }
+        Ok(())
+    }
+
+    /// Reads the spec back.
+    pub fn read(folder: &Path) -> Result<Arc<RunSpec>, Failure> {
+        let path = folder.join("run.json");
+        let text = fs::read_to_string(&path).map_err(|e| Failure::io("read", &path, &e))?;
+        serde_json::from_str(&text)
+            .map(Arc::new)
+            .map_err(|e| Failure::fault(format!("{}: {e}", path.display())))
+    }
+}
+
+/// Where a robot finds its own domain: the only file of the run that it reads beside the spec.
+pub fn domain_file(folder: &Path, robot: &str) -> PathBuf {
+    folder.join("robots").join(format!("{robot}.pddl"))
+}

@@ -1,0 +1,112 @@
+//! The metric table, laid out like the paper's: one row per category.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::commands::bench::Finished;
+use crate::suite::Suite;
+
+/// A row: means over the tasks of a category; RU and Eff over its successes.
+#[derive(Clone, Debug, Default)]
+pub struct Row {
+    /// The category.
+    pub name: String,
+    n: usize,
+    sr: f64,
+    exe: f64,
+    gcr: f64,
+    ru: Option<f64>,
+    eff: Option<f64>,
+}
+
+/// The rows: a category each, all together, and for imported suites those that were not set aside.
+pub fn rows(suite: &Suite, finished: &[Finished]) -> Vec<Row> {
+    let mut by_category: BTreeMap<&str, Vec<&Finished>> = BTreeMap::new();
+    for f in finished {
+        by_category.entry(suite.entries[f.index].task.category.as_str()).or_default().push(f);
+    }
+    let mut rows: Vec<Row> = by_category.iter().map(|(name, tasks)| Row::of(name, tasks)).collect();
+    let all: Vec<&Finished> = finished.iter().collect();
+    rows.push(Row::of("all", &all));
+    if suite.imported {
+        let kept = |f: &&Finished| suite.entries[f.index].set_aside.is_none();
+        for (name, tasks) in &by_category {
+            let kept: Vec<&Finished> = tasks.iter().copied().filter(kept).collect();
+            rows.push(Row::of(&format!("{name}, goal agrees"), &kept));
+        }
+        let kept: Vec<&Finished> = all.into_iter().filter(kept).collect();
+        rows.push(Row::of("all, goal agrees", &kept));
+    }
+    rows
+}
+
+impl Row {
+    fn of(name: &str, tasks: &[&Finished]) -> Row {
+        let mean = |values: Vec<f64>| {
+            if values.is_empty() { None } else { Some(values.iter().sum::<f64>() / values.len() as f64) }
+        };
+        let metric = |f: fn(&Finished) -> f64| mean(tasks.iter().map(|t| f(t)).collect()).unwrap_or(0.0);
+        Row {
+            name: name.to_string(),
+            n: tasks.len(),
+            sr: metric(|t| t.result.metrics.sr),
+            exe: metric(|t| t.result.metrics.exe),
+            gcr: metric(|t| t.result.metrics.gcr),
+            ru: mean(tasks.iter().filter_map(|t| t.result.metrics.ru).collect()),
+            eff: mean(tasks.iter().filter_map(|t| t.result.metrics.eff).collect()),
+        }
+    }
+
+    /// As the contract prints it.
+    pub fn json(&self) -> Value {
+        json!({ "n": self.n, "sr": self.sr, "exe": self.exe, "gcr": self.gcr, "ru": self.ru, "eff": self.eff })
+    }
+
+    /// One line per task, for spreadsheets.
+    pub fn csv(suite: &Suite, finished: &[Finished]) -> String {
+        let mut out = String::from(
+            "id,category,outcome,sr,gcr,exe,ru,eff,steps,makespan,makespan_lower_bound,total_ms,set_aside\n",
+        );
+        for f in finished {
+            let (entry, m, plan) = (&suite.entries[f.index], &f.result.metrics, &f.result.plan);
+            let outcome = serde_json::to_value(f.result.outcome).unwrap_or_default();
+            let optional = |v: Option<f64>| v.map(|v| v.to_string()).unwrap_or_default();
+            // Writing to a string does not fail.
+            let _ = writeln!(
+                out,
+                "{},{},{},{},{},{},{},{},{},{},{},{:.1},{}",
+                entry.task.id,
+                entry.task.category,
+                outcome.as_str().unwrap_or_default(),
+                m.sr,
+                m.gcr,
+                m.exe,
+                optional(m.ru),
+                optional(m.eff),
+                plan.length,
+                plan.makespan,
+                plan.makespan_lower_bound,
+                f.result.time_ms.total,
+                u8::from(entry.set_aside.is_some()),
+            );
+        }
+        out
+    }
+}
+
+/// The table for people.
+pub fn text(name: &str, rows: &[Row]) -> String {
+    let width = rows.iter().map(|r| r.name.len()).max().unwrap_or(0).max(8);
+    let mut out = format!("\n{name}\n{:width$}    n    SR    RU   GCR   Eff   Exe\n", "category");
+    let optional = |v: Option<f64>| v.map_or("   -".to_string(), |v| format!("{v:.2}"));
+    for r in rows {
+        let _ = writeln!(
+            out,
+            "{:width$}  {:3}  {:.2}  {}  {:.2}  {}  {:.2}",
+            r.name, r.n, r.sr, optional(r.ru), r.gcr, optional(r.eff), r.exe
+        );
+    }
+    out
+}
