@@ -213,6 +213,30 @@ fn a_killed_publisher_is_followed_by_another() {
 }
 
 #[test]
+fn a_member_killed_at_any_moment_of_its_start_leaves_the_run_whole() {
+    let run = Run::create(2).unwrap();
+    let scope = run.scope().clone();
+    let mut simulator = run.open(Node::Simulator).unwrap();
+    for delay in 0..30 {
+        let reader = spawn("reader", Some(&scope));
+        // The sweep over moments is the point, not any one of them: starting takes about 20 ms.
+        std::thread::sleep(Duration::from_micros(1_000 * delay));
+        kill(reader);
+        run.bury_the_dead();
+        simulator.publish_frame(&words(delay + 1)).unwrap();
+        simulator.wait(Some(Duration::ZERO)).unwrap();
+    }
+    let mut reader = spawn("reader", Some(&scope));
+    await_ready(&mut reader, || {
+        simulator.wait(Some(Duration::from_millis(5))).unwrap();
+    });
+    kill(reader);
+    drop(simulator);
+    run.end().unwrap();
+    assert_eq!(leftovers(&scope), Vec::<PathBuf>::new());
+}
+
+#[test]
 fn a_killed_owner_takes_its_children_along_and_only_its_run_is_swept() {
     let living = Run::create(1).unwrap();
     let mut owner = spawn("owner", None);

@@ -12,7 +12,7 @@ use iceoryx2::prelude::*;
 use lamma_protocol::{Envelope, Frame, Node as Member, Topic, codec};
 
 use super::bell::{Bell, Woken};
-use super::services::{Handle, Ring, Rings, TopicService, peers_of};
+use super::services::{Handle, Ring, Rings, TopicService, check_open_files, peers_of};
 use super::{OpenError, Scope};
 use crate::{Bus, Inbox, PublishError, Received, Stats, WaitError};
 
@@ -80,6 +80,7 @@ impl Endpoint {
         if !Topic::nodes(agents).contains(&node) {
             return Err(OpenError::NoSuchNode { node, agents });
         }
+        check_open_files(node, agents)?;
         let handle = Handle::new(scope)?;
         let listener = handle.bell(node, false)?.listener_builder().create();
         let bell = Bell::new(listener.map_err(|e| handle.error("the bell", e))?);

@@ -104,6 +104,17 @@ pub(super) fn peers_of(member: Member, agents: u16) -> Vec<Member> {
     Topic::nodes(agents).into_iter().filter(exchange).collect()
 }
 
+/// Refuses to begin where descriptors would run out later.
+pub(super) fn check_open_files(node: Member, agents: u16) -> Result<(), OpenError> {
+    // A robot was seen to use 50; the others 13 per agent and some (services, ports, connections).
+    let needed = match node {
+        Member::Robot(_) => 128,
+        Member::Supervisor | Member::Coordinator | Member::Simulator => 256 + 16 * u64::from(agents),
+    };
+    let limit = crate::process::open_files_limit();
+    if limit < needed { Err(OpenError::OpenFiles { node, agents, needed, limit }) } else { Ok(()) }
+}
+
 /// What the event ids of one node's bell mean: first the topics it reads, then the nodes that may join.
 #[derive(Clone, Debug)]
 pub(super) struct Rings {
@@ -165,6 +176,7 @@ struct Services {
 impl Run {
     /// Creates everything that a team of `agents` needs, under names that no other run has.
     pub fn create(agents: u16) -> Result<Run, OpenError> {
+        check_open_files(Member::Supervisor, agents)?;
         let claim = Claim::new(agents)?;
         match Services::create(&claim.scope) {
             Ok(services) => Ok(Run { services: Some(services), claim }),
