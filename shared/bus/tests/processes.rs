@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
-use lamma_bus::iceoryx::{Endpoint, Run, Scope, sweep, sweep_stale};
+use lamma_bus::iceoryx::{Endpoint, OpenError, Run, Scope, sweep, sweep_stale};
 use lamma_bus::process::tie_to_parent;
 use lamma_bus::{Bus, Received};
 use lamma_protocol::message::{Ack, Verdict};
@@ -144,6 +144,23 @@ fn nothing_is_left_after_a_run_in_order() {
         end.receive(&mut |_| {});
     }
     run.end().unwrap();
+    assert_eq!(leftovers(&scope), Vec::<PathBuf>::new());
+}
+
+#[test]
+fn an_endpoint_that_outlives_its_run_leaves_nothing() {
+    let run = Run::create(2).unwrap();
+    let scope = run.scope().clone();
+    let mut simulator = run.open(Node::Simulator).unwrap();
+    let mut robot = run.open(Node::Robot(R0)).unwrap();
+    run.end().unwrap();
+    simulator.publish_frame(&words(1)).unwrap();
+    robot.receive(&mut |_| {});
+    simulator.wait(Some(Duration::ZERO)).unwrap();
+    drop((simulator, robot));
+    assert_eq!(leftovers(&scope), Vec::<PathBuf>::new());
+    let joined = Endpoint::open(&scope, Node::Simulator);
+    assert!(matches!(joined, Err(OpenError::Ended { .. })), "an ended run cannot be joined");
     assert_eq!(leftovers(&scope), Vec::<PathBuf>::new());
 }
 

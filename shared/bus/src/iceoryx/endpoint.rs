@@ -13,6 +13,7 @@ use lamma_protocol::{Envelope, Frame, Node as Member, Topic, codec};
 
 use super::bell::{Bell, Woken};
 use super::services::{Handle, Ring, Rings, TopicService, check_open_files, peers_of};
+use super::sweep::is_owned;
 use super::{OpenError, Scope};
 use crate::{Bus, Inbox, PublishError, Received, Stats, WaitError};
 
@@ -81,6 +82,9 @@ impl Endpoint {
             return Err(OpenError::NoSuchNode { node, agents });
         }
         check_open_files(node, agents)?;
+        if !is_owned(scope) {
+            return Err(OpenError::Ended { tag: scope.tag().to_owned() });
+        }
         let handle = Handle::new(scope)?;
         let listener = handle.bell(node, false)?.listener_builder().create();
         let bell = Bell::new(listener.map_err(|e| handle.error("the bell", e))?);

@@ -61,7 +61,13 @@ pub enum OpenError {
         /// What the system said last.
         reason: String,
     },
-    /// The run is not there, or something of it cannot be opened.
+    /// The run is over, or its owner has died.
+    #[error("run {tag} has ended: start a new one; `lamma clean` removes what an owner that died has left")]
+    Ended {
+        /// Which run.
+        tag: String,
+    },
+    /// Something of the run cannot be opened.
     #[error(
         "cannot open {what} of run {tag} ({reason}): has the run ended? A new run starts with new memory"
     )]

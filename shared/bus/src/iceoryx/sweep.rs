@@ -80,6 +80,12 @@ impl Claim {
     }
 }
 
+/// Whether the owner of the run lives. Joining one that has ended would leave files that nobody removes.
+pub(super) fn is_owned(scope: &Scope) -> bool {
+    let file = File::open(Scope::owner_file(scope.tag()));
+    file.is_ok_and(|f| matches!(f.try_lock_shared(), Err(TryLockError::WouldBlock)))
+}
+
 /// Folders that may hold a run, the best first: memory that the kernel forgets when the host restarts.
 fn bases() -> Vec<PathBuf> {
     let runtime = std::env::var_os("XDG_RUNTIME_DIR").map(PathBuf::from);
@@ -96,14 +102,12 @@ fn fresh_tag() -> String {
 
 /// Removes everything of a run. Its processes must have ended. Done twice, it does nothing.
 pub fn sweep(scope: &Scope) -> Result<(), SweepError> {
-    sweep_tag(scope.tag(), Some(scope.root()))
+    sweep_tag(scope.tag(), &[scope.root().to_owned()])
 }
 
-fn sweep_tag(tag: &str, root: Option<&Path>) -> Result<(), SweepError> {
+fn sweep_tag(tag: &str, roots: &[PathBuf]) -> Result<(), SweepError> {
     let owner = Scope::owner_file(tag);
-    if let Some(root) = root {
-        remove(root)?;
-    }
+    roots.iter().try_for_each(|root| remove(root))?;
     let ours = shared_memory().into_iter().filter(|(t, path)| t == tag && *path != owner);
     ours.into_iter().try_for_each(|(_, path)| remove(&path))?;
     remove(&owner)
@@ -150,7 +154,10 @@ fn sweep_if_stale(tag: &str) -> Result<bool, SweepError> {
     let mut file = match File::open(Scope::owner_file(tag)) {
         Ok(file) => file,
         // The owner's file is made first and removed last: without it nobody owns the rest.
-        Err(error) if error.kind() == ErrorKind::NotFound => return sweep_tag(tag, None).map(|()| true),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let roots: Vec<_> = bases().iter().map(|base| Scope::root_in(base, tag)).collect();
+            return sweep_tag(tag, &roots).map(|()| true);
+        }
         Err(_) => return Ok(false),
     };
     match file.try_lock() {
@@ -158,9 +165,10 @@ fn sweep_if_stale(tag: &str) -> Result<bool, SweepError> {
         Err(TryLockError::WouldBlock | TryLockError::Error(_)) => return Ok(false),
     }
     let mut text = String::new();
-    let root = file.read_to_string(&mut text).ok().and_then(|_| text.lines().next().map(PathBuf::from));
+    let _ = file.read_to_string(&mut text);
     // The file is only believed about a folder that carries the tag.
     let expected = Scope::prefix(tag) + "root";
+    let root = text.lines().next().map(PathBuf::from);
     let root = root.filter(|r| r.file_name().is_some_and(|n| n == expected.as_str()));
-    sweep_tag(tag, root.as_deref()).map(|()| true)
+    sweep_tag(tag, root.as_slice()).map(|()| true)
 }
