@@ -268,11 +268,13 @@ fn a_killed_owner_takes_its_children_along_and_only_its_run_is_swept() {
         assert!(Instant::now() < end, "the child outlives its parent");
         std::thread::yield_now();
     }
-    assert!(!leftovers(&scope).is_empty(), "a killed owner cannot clean up");
-    // Another test may sweep at the same time: what counts is what is left.
+    // Another test process may sweep at the same time: what counts is that nothing is left in the end.
     let swept = sweep_stale().unwrap();
     assert!(!swept.iter().any(|t| t == living.scope().tag()), "a living run is not touched");
-    assert_eq!(leftovers(&scope), Vec::<PathBuf>::new());
+    while !leftovers(&scope).is_empty() {
+        assert!(Instant::now() < end, "left: {:?}", leftovers(&scope));
+        std::thread::yield_now();
+    }
     sweep(&scope).unwrap();
     let mut end = living.open(Node::Simulator).unwrap();
     end.publish_frame(&words(1)).unwrap();

@@ -1,5 +1,7 @@
 //! The services of a run: their names and sizes, and the owner that creates and removes them.
 
+use std::sync::{Mutex, PoisonError};
+
 use iceoryx2::prelude::*;
 use iceoryx2::service::port_factory::{event, publish_subscribe};
 use lamma_protocol::{Node as Member, Topic};
@@ -12,6 +14,9 @@ pub(super) type BellService = event::PortFactory<ipc::Service>;
 
 /// Ports that the dead may hold on to until [`Run::bury_the_dead`], per service.
 const SPARE: usize = 6;
+
+/// How often the dead are buried before they are left to the end of the run.
+const TRIES: usize = 3;
 
 /// What one reader holds at once: the newest so far, and one to compare it with.
 const BORROWED: usize = 2;
@@ -201,10 +206,17 @@ impl Run {
     /// a process again; with several at it they hinder each other.
     pub fn bury_the_dead(&self) {
         let Some(services) = &self.services else { return };
-        let state = services.handle.node.try_cleanup_dead_nodes();
-        if state.failed_cleanups > 0 {
-            tracing::warn!("{} dead processes still hold shared memory", state.failed_cleanups);
+        // The transport cleans only once at a time in a process, and skips the dead otherwise.
+        static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+        let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut failed = 0;
+        for _ in 0..TRIES {
+            failed = services.handle.node.try_cleanup_dead_nodes().failed_cleanups;
+            if failed == 0 {
+                return;
+            }
         }
+        tracing::warn!("{failed} dead processes still hold shared memory");
     }
 
     /// Removes everything of the run. All its other processes must have ended.
