@@ -21,7 +21,7 @@ use rustix::process::{Pid, Signal, kill_process};
 const ROLE: &str = "LAMMA_TEST_ROLE";
 const SCOPE: &str = "LAMMA_TEST_SCOPE";
 const R0: AgentId = AgentId(0);
-const PATIENCE: Duration = Duration::from_secs(30);
+const PATIENCE: Duration = Duration::from_secs(60);
 
 fn words(version: u64) -> Vec<u64> {
     frame::write_frame(&FrameHeader { version, facts: 1000, ..FrameHeader::default() }, &[7; 16])
@@ -251,6 +251,16 @@ fn a_member_killed_at_any_moment_of_its_start_leaves_the_run_whole() {
     drop(simulator);
     run.end().unwrap();
     assert_eq!(leftovers(&scope), Vec::<PathBuf>::new());
+}
+
+#[test]
+fn shared_memory_that_its_maker_left_without_a_size_is_removed_with_the_dead() {
+    let run = Run::create(1).unwrap();
+    let half_made = PathBuf::from(format!("/dev/shm/lamma-{}_half", run.scope().tag()));
+    std::fs::write(&half_made, "").unwrap();
+    run.bury_the_dead();
+    assert!(!half_made.exists(), "who opens it would wait for ever");
+    run.open(Node::Simulator).unwrap().publish_frame(&words(1)).unwrap();
 }
 
 #[test]

@@ -6,7 +6,7 @@ use iceoryx2::prelude::*;
 use iceoryx2::service::port_factory::{event, publish_subscribe};
 use lamma_protocol::{Node as Member, Topic};
 
-use super::sweep::{Claim, SweepError};
+use super::sweep::{Claim, SweepError, remove_half_made};
 use super::{Endpoint, OpenError, Scope, sweep};
 
 pub(super) type TopicService<T> = publish_subscribe::PortFactory<ipc::Service, [T], ()>;
@@ -202,13 +202,14 @@ impl Run {
         Endpoint::open(self.scope(), node)
     }
 
-    /// Frees what dead processes of the run hold, so that their successors find room. For whoever starts
-    /// a process again; with several at it they hinder each other.
+    /// Frees what dead processes of the run hold, so that their successors find room and nobody waits for
+    /// what they left half made. Call it after every death, before the process is started again.
     pub fn bury_the_dead(&self) {
         let Some(services) = &self.services else { return };
         // The transport cleans only once at a time in a process, and skips the dead otherwise.
         static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
         let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+        remove_half_made(self.scope().tag());
         let mut failed = 0;
         for _ in 0..TRIES {
             failed = services.handle.node.try_cleanup_dead_nodes().failed_cleanups;

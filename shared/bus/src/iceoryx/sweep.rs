@@ -9,9 +9,9 @@ use std::collections::hash_map::RandomState;
 use std::fs::{self, DirBuilder, File, OpenOptions, TryLockError};
 use std::hash::BuildHasher;
 use std::io::{self, ErrorKind, Read, Write};
-use std::os::unix::fs::{DirBuilderExt, OpenOptionsExt};
+use std::os::unix::fs::{DirBuilderExt, MetadataExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use thiserror::Error;
 
@@ -24,6 +24,9 @@ const MAX_ROOT: usize = 42;
 
 /// Names that are tried in one folder.
 const TRIES: usize = 8;
+
+/// A living process takes microseconds from the name of a file to its size.
+const HALF_MADE: Duration = Duration::from_millis(50);
 
 /// Something of a run could not be removed.
 #[derive(Debug, Error)]
@@ -135,6 +138,26 @@ fn shared_memory() -> Vec<(String, PathBuf)> {
         Some((Scope::tag_of(name.to_str()?)?.to_owned(), entry.path()))
     });
     tagged.collect()
+}
+
+/// Removes shared memory that a process has named but not given a size, if that lasts: its maker was killed
+/// between the two. iceoryx2 0.10.0 waits for such a file without end wherever it opens one
+/// (`dynamic_storage/posix_shared_memory.rs`, `MappingSizeIsZero`); once it is gone the wait ends too.
+pub(super) fn remove_half_made(tag: &str) {
+    let empty = || -> BTreeSet<(PathBuf, u64)> {
+        let ours = shared_memory().into_iter().filter(|(t, _)| t == tag);
+        let files = ours.filter_map(|(_, path)| Some((fs::metadata(&path).ok()?, path)));
+        files.filter(|(meta, _)| meta.is_file() && meta.len() == 0).map(|(m, path)| (path, m.ino())).collect()
+    };
+    let before = empty();
+    if before.is_empty() {
+        return;
+    }
+    std::thread::sleep(HALF_MADE);
+    for (path, _) in empty().intersection(&before) {
+        tracing::debug!("removing {}: its maker has died", path.display());
+        let _ = fs::remove_file(path);
+    }
 }
 
 /// Removes all runs on this host whose owner has died, and gives their tags. Runs of other users, which
