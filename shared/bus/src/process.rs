@@ -55,18 +55,14 @@ pub fn exit_when_stdin_closes() -> io::Result<()> {
     std::thread::Builder::new().name("orphan-watch".into()).spawn(watch).map(|_| ())
 }
 
-/// Raises the limit on open files as far as this user may, and gives it. A transport that runs out of
-/// descriptors reaches only some of its readers, and says nothing: compare with
-/// [`descriptors_needed`].
+/// Raises the limit on open files as far as this user may, and gives it. Children inherit it.
 pub fn raise_open_files_limit() -> io::Result<u64> {
     let limit = rustix::process::getrlimit(Resource::Nofile);
     rustix::process::setrlimit(Resource::Nofile, Rlimit { current: limit.maximum, maximum: limit.maximum })?;
-    Ok(limit.maximum.unwrap_or(u64::MAX))
+    Ok(open_files_limit())
 }
 
-/// How many open files the busiest process of a team of `agents` needs.
-pub fn descriptors_needed(agents: u16) -> u64 {
-    // Per agent the coordinator and the simulator each hold two topics, three descriptors at most for
-    // both ends, and a bell; the launcher holds every service, a pipe, a log and a process handle.
-    256 + 16 * u64::from(agents)
+/// How many files this process may have open.
+pub fn open_files_limit() -> u64 {
+    rustix::process::getrlimit(Resource::Nofile).current.unwrap_or(u64::MAX)
 }

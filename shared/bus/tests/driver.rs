@@ -1,9 +1,11 @@
 //! The driver on a bus: inputs, outputs, time, jobs and how it ends.
+#![expect(clippy::unwrap_used, reason = "a failure here is a failed test")]
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use lamma_bus::driver::{DriverError, End, Settings, Stop, Worker, drive};
+use lamma_bus::iceoryx::{Endpoint, Run};
 use lamma_bus::inproc::Hub;
 use lamma_bus::{Bus, Received, trace};
 use lamma_protocol::message::{Command, Grant};
@@ -29,7 +31,8 @@ impl<F: FnMut(Input<'_, String>) -> Outputs> Machine for Script<F> {
     type Done = String;
 
     fn handle(&mut self, now: Tick, input: Input<'_, String>) {
-        if self.timeout.is_some_and(|t| t <= now) {
+        if matches!(input, Input::Timeout) {
+            assert!(self.timeout.is_some_and(|t| t <= now), "a timeout before its time");
             self.timeout = None;
         }
         self.outputs.extend((self.react)(input));
@@ -182,4 +185,43 @@ fn of_several_frames_at_once_the_last_is_published() {
     drive(&mut script(frames, |_| vec![]), &mut bus, Settings::default(), vec![]).unwrap();
     assert_eq!(bus.stats().published, 1);
     robot.receive(&mut |r| assert!(matches!(r, Received::Frame(f) if f.version() == 3)));
+}
+
+/// One machine grants, the other shows it in a frame, the first has seen it.
+fn grant_and_frame(simulator: &mut dyn Bus, stop: Stop) {
+    let mut arbiter = script(vec![], |input| match input {
+        Input::Message(Topic::Grant, envelope) => {
+            let Message::Grant(grant) = envelope.message else { unreachable!() };
+            let header = lamma_protocol::FrameHeader { epoch: grant.epoch, ..Default::default() };
+            vec![Output::PublishFrame(frame::write_frame(&header, &[]))]
+        }
+        _ => vec![],
+    });
+    let settings = Settings { stop, ..Settings::default() };
+    drive(&mut arbiter, simulator, settings, vec![]).unwrap();
+}
+
+fn grant_until_seen(bus: &mut dyn Bus) {
+    let mut coordinator = script(vec![Output::Publish(Topic::Grant, grant())], |input| match input {
+        Input::Frame(frame) if frame.epoch() == Epoch(1) => vec![Output::Finish],
+        _ => vec![],
+    });
+    assert_eq!(drive(&mut coordinator, bus, Settings::default(), vec![]).unwrap(), End::Finished);
+}
+
+#[test]
+fn the_same_machines_run_over_shared_memory() {
+    let run = Run::create(1).unwrap();
+    let scope = run.scope().clone();
+    let stop = Stop::default();
+    std::thread::scope(|threads| {
+        threads.spawn(|| {
+            grant_and_frame(&mut Endpoint::open(&scope, Node::Simulator).unwrap(), stop.clone());
+        });
+        for _ in 0..10 {
+            grant_until_seen(&mut run.open(Node::Coordinator).unwrap());
+        }
+        stop.stop();
+    });
+    run.end().unwrap();
 }

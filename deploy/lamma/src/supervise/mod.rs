@@ -5,7 +5,7 @@
 //! of Ctrl-C from a pipe, in one `poll`, and tells its owner over a channel. It ends when all children
 //! have ended.
 //!
-//! The order of a run: [`RunDir::create`], [`raise_open_files_limit`](lamma_bus::process), the bus's
+//! The order of a run: [`RunDir::create`], [`lamma_bus::process::raise_open_files_limit`], the bus's
 //! memory (`lamma_bus::iceoryx::Run::create`), [`Supervisor::start`], [`Supervisor::spawn`] for each
 //! member, ..., a stop over the bus, [`Supervisor::end`], and the bus's memory again (`Run::end`), which
 //! removes all of it once nobody is left.

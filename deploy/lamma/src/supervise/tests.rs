@@ -314,11 +314,10 @@ fn a_killed_launcher_leaves_no_process_and_what_it_leaves_is_swept() {
     run.process.kill().unwrap();
     run.process.wait().unwrap();
     eventually("all members have ended", || run.members.iter().all(|p| !alive(*p)));
-    assert!(!leftovers(&run.scope).is_empty(), "a killed launcher cannot clean up");
-    // Another test may sweep at the same time: what counts is what is left.
+    // Another test process may sweep at the same time: what counts is that nothing is left in the end.
     let swept = sweep_stale().unwrap();
     assert!(!swept.iter().any(|tag| tag == living.scope.tag()), "a living run is not touched");
-    run.assert_gone();
+    eventually("nothing is left", || leftovers(&run.scope).is_empty());
     assert!(living.members.iter().all(|p| alive(*p)), "the other run goes on");
     let mut living = living;
     signal(living.pid(), Signal::TERM);

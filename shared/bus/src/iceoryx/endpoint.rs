@@ -12,7 +12,8 @@ use iceoryx2::prelude::*;
 use lamma_protocol::{Envelope, Frame, Node as Member, Topic, codec};
 
 use super::bell::{Bell, Woken};
-use super::services::{Handle, Ring, Rings, TopicService, peers_of};
+use super::services::{Handle, Ring, Rings, TopicService, check_open_files, peers_of};
+use super::sweep::is_owned;
 use super::{OpenError, Scope};
 use crate::{Bus, Inbox, PublishError, Received, Stats, WaitError};
 
@@ -79,6 +80,10 @@ impl Endpoint {
         let agents = scope.agents();
         if !Topic::nodes(agents).contains(&node) {
             return Err(OpenError::NoSuchNode { node, agents });
+        }
+        check_open_files(node, agents)?;
+        if !is_owned(scope) {
+            return Err(OpenError::Ended { tag: scope.tag().to_owned() });
         }
         let handle = Handle::new(scope)?;
         let listener = handle.bell(node, false)?.listener_builder().create();

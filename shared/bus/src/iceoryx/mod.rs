@@ -37,6 +37,20 @@ pub enum OpenError {
         /// The size of the team.
         agents: u16,
     },
+    /// Past the limit the transport would reach only some readers, and say nothing.
+    #[error(
+        "{node} needs {needed} open files in a team of {agents}, the limit is {limit}: raise it (`ulimit -n`)"
+    )]
+    OpenFiles {
+        /// Who.
+        node: Node,
+        /// The size of the team.
+        agents: u16,
+        /// How many it may have open at once.
+        needed: u64,
+        /// The limit.
+        limit: u64,
+    },
     /// No folder can hold the run's files.
     #[error(
         "cannot create a folder for the run's shared memory in any of {tried:?} ({reason}): make one writable"
@@ -47,7 +61,13 @@ pub enum OpenError {
         /// What the system said last.
         reason: String,
     },
-    /// The run is not there, or something of it cannot be opened.
+    /// The run is over, or its owner has died.
+    #[error("run {tag} has ended: start a new one; `lamma clean` removes what an owner that died has left")]
+    Ended {
+        /// Which run.
+        tag: String,
+    },
+    /// Something of the run cannot be opened.
     #[error(
         "cannot open {what} of run {tag} ({reason}): has the run ended? A new run starts with new memory"
     )]

@@ -1,10 +1,12 @@
 //! The services of a run: their names and sizes, and the owner that creates and removes them.
 
+use std::sync::{Mutex, PoisonError};
+
 use iceoryx2::prelude::*;
 use iceoryx2::service::port_factory::{event, publish_subscribe};
 use lamma_protocol::{Node as Member, Topic};
 
-use super::sweep::{Claim, SweepError};
+use super::sweep::{Claim, SweepError, remove_half_made};
 use super::{Endpoint, OpenError, Scope, sweep};
 
 pub(super) type TopicService<T> = publish_subscribe::PortFactory<ipc::Service, [T], ()>;
@@ -12,6 +14,9 @@ pub(super) type BellService = event::PortFactory<ipc::Service>;
 
 /// Ports that the dead may hold on to until [`Run::bury_the_dead`], per service.
 const SPARE: usize = 6;
+
+/// How often the dead are buried before they are left to the end of the run.
+const TRIES: usize = 3;
 
 /// What one reader holds at once: the newest so far, and one to compare it with.
 const BORROWED: usize = 2;
@@ -104,6 +109,17 @@ pub(super) fn peers_of(member: Member, agents: u16) -> Vec<Member> {
     Topic::nodes(agents).into_iter().filter(exchange).collect()
 }
 
+/// Refuses to begin where descriptors would run out later.
+pub(super) fn check_open_files(node: Member, agents: u16) -> Result<(), OpenError> {
+    // A robot was seen to use 50; the others 13 per agent and some (services, ports, connections).
+    let needed = match node {
+        Member::Robot(_) => 128,
+        Member::Supervisor | Member::Coordinator | Member::Simulator => 256 + 16 * u64::from(agents),
+    };
+    let limit = crate::process::open_files_limit();
+    if limit < needed { Err(OpenError::OpenFiles { node, agents, needed, limit }) } else { Ok(()) }
+}
+
 /// What the event ids of one node's bell mean: first the topics it reads, then the nodes that may join.
 #[derive(Clone, Debug)]
 pub(super) struct Rings {
@@ -165,6 +181,7 @@ struct Services {
 impl Run {
     /// Creates everything that a team of `agents` needs, under names that no other run has.
     pub fn create(agents: u16) -> Result<Run, OpenError> {
+        check_open_files(Member::Supervisor, agents)?;
         let claim = Claim::new(agents)?;
         match Services::create(&claim.scope) {
             Ok(services) => Ok(Run { services: Some(services), claim }),
@@ -185,14 +202,22 @@ impl Run {
         Endpoint::open(self.scope(), node)
     }
 
-    /// Frees what dead processes of the run hold, so that their successors find room. For whoever starts
-    /// a process again; with several at it they hinder each other.
+    /// Frees what dead processes of the run hold, so that their successors find room and nobody waits for
+    /// what they left half made. Call it after every death, before the process is started again.
     pub fn bury_the_dead(&self) {
         let Some(services) = &self.services else { return };
-        let state = services.handle.node.try_cleanup_dead_nodes();
-        if state.failed_cleanups > 0 {
-            tracing::warn!("{} dead processes still hold shared memory", state.failed_cleanups);
+        // The transport cleans only once at a time in a process, and skips the dead otherwise.
+        static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+        let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+        remove_half_made(self.scope().tag());
+        let mut failed = 0;
+        for _ in 0..TRIES {
+            failed = services.handle.node.try_cleanup_dead_nodes().failed_cleanups;
+            if failed == 0 {
+                return;
+            }
         }
+        tracing::warn!("{failed} dead processes still hold shared memory");
     }
 
     /// Removes everything of the run. All its other processes must have ended.

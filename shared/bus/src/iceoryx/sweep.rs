@@ -9,9 +9,9 @@ use std::collections::hash_map::RandomState;
 use std::fs::{self, DirBuilder, File, OpenOptions, TryLockError};
 use std::hash::BuildHasher;
 use std::io::{self, ErrorKind, Read, Write};
-use std::os::unix::fs::{DirBuilderExt, OpenOptionsExt};
+use std::os::unix::fs::{DirBuilderExt, MetadataExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use thiserror::Error;
 
@@ -24,6 +24,9 @@ const MAX_ROOT: usize = 42;
 
 /// Names that are tried in one folder.
 const TRIES: usize = 8;
+
+/// A living process takes microseconds from the name of a file to its size.
+const HALF_MADE: Duration = Duration::from_millis(50);
 
 /// Something of a run could not be removed.
 #[derive(Debug, Error)]
@@ -80,6 +83,12 @@ impl Claim {
     }
 }
 
+/// Whether the owner of the run lives. Joining one that has ended would leave files that nobody removes.
+pub(super) fn is_owned(scope: &Scope) -> bool {
+    let file = File::open(Scope::owner_file(scope.tag()));
+    file.is_ok_and(|f| matches!(f.try_lock_shared(), Err(TryLockError::WouldBlock)))
+}
+
 /// Folders that may hold a run, the best first: memory that the kernel forgets when the host restarts.
 fn bases() -> Vec<PathBuf> {
     let runtime = std::env::var_os("XDG_RUNTIME_DIR").map(PathBuf::from);
@@ -96,14 +105,12 @@ fn fresh_tag() -> String {
 
 /// Removes everything of a run. Its processes must have ended. Done twice, it does nothing.
 pub fn sweep(scope: &Scope) -> Result<(), SweepError> {
-    sweep_tag(scope.tag(), Some(scope.root()))
+    sweep_tag(scope.tag(), &[scope.root().to_owned()])
 }
 
-fn sweep_tag(tag: &str, root: Option<&Path>) -> Result<(), SweepError> {
+fn sweep_tag(tag: &str, roots: &[PathBuf]) -> Result<(), SweepError> {
     let owner = Scope::owner_file(tag);
-    if let Some(root) = root {
-        remove(root)?;
-    }
+    roots.iter().try_for_each(|root| remove(root))?;
     let ours = shared_memory().into_iter().filter(|(t, path)| t == tag && *path != owner);
     ours.into_iter().try_for_each(|(_, path)| remove(&path))?;
     remove(&owner)
@@ -133,6 +140,26 @@ fn shared_memory() -> Vec<(String, PathBuf)> {
     tagged.collect()
 }
 
+/// Removes shared memory that a process has named but not given a size, if that lasts: its maker was killed
+/// between the two. iceoryx2 0.10.0 waits for such a file without end wherever it opens one
+/// (`dynamic_storage/posix_shared_memory.rs`, `MappingSizeIsZero`); once it is gone the wait ends too.
+pub(super) fn remove_half_made(tag: &str) {
+    let empty = || -> BTreeSet<(PathBuf, u64)> {
+        let ours = shared_memory().into_iter().filter(|(t, _)| t == tag);
+        let files = ours.filter_map(|(_, path)| Some((fs::metadata(&path).ok()?, path)));
+        files.filter(|(meta, _)| meta.is_file() && meta.len() == 0).map(|(m, path)| (path, m.ino())).collect()
+    };
+    let before = empty();
+    if before.is_empty() {
+        return;
+    }
+    std::thread::sleep(HALF_MADE);
+    for (path, _) in empty().intersection(&before) {
+        tracing::debug!("removing {}: its maker has died", path.display());
+        let _ = fs::remove_file(path);
+    }
+}
+
 /// Removes all runs on this host whose owner has died, and gives their tags. Runs of other users, which
 /// it may not remove, are left alone.
 pub fn sweep_stale() -> Result<Vec<String>, SweepError> {
@@ -150,7 +177,10 @@ fn sweep_if_stale(tag: &str) -> Result<bool, SweepError> {
     let mut file = match File::open(Scope::owner_file(tag)) {
         Ok(file) => file,
         // The owner's file is made first and removed last: without it nobody owns the rest.
-        Err(error) if error.kind() == ErrorKind::NotFound => return sweep_tag(tag, None).map(|()| true),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let roots: Vec<_> = bases().iter().map(|base| Scope::root_in(base, tag)).collect();
+            return sweep_tag(tag, &roots).map(|()| true);
+        }
         Err(_) => return Ok(false),
     };
     match file.try_lock() {
@@ -158,9 +188,10 @@ fn sweep_if_stale(tag: &str) -> Result<bool, SweepError> {
         Err(TryLockError::WouldBlock | TryLockError::Error(_)) => return Ok(false),
     }
     let mut text = String::new();
-    let root = file.read_to_string(&mut text).ok().and_then(|_| text.lines().next().map(PathBuf::from));
+    let _ = file.read_to_string(&mut text);
     // The file is only believed about a folder that carries the tag.
     let expected = Scope::prefix(tag) + "root";
+    let root = text.lines().next().map(PathBuf::from);
     let root = root.filter(|r| r.file_name().is_some_and(|n| n == expected.as_str()));
-    sweep_tag(tag, root.as_deref()).map(|()| true)
+    sweep_tag(tag, root.as_slice()).map(|()| true)
 }
