@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 
 use common::World;
+use lamma_domains::generate;
 use lamma_domains::robots;
 use lamma_domains::tasks::{self, Task};
 use lamma_domains::world::{WorldSetup, setup_with};
@@ -64,6 +65,20 @@ fn every_goal_is_within_its_teams_reach_and_most_need_more_than_one_robot() {
     }
     println!("{together} tasks need more than one robot");
     assert!(together >= 40, "only {together} tasks need more than one robot");
+}
+
+/// Two a scene, or as many as `GENERATED_TASKS` says.
+#[test]
+fn generated_tasks_of_every_scene_are_within_reach() {
+    let count = std::env::var("GENERATED_TASKS").ok().and_then(|n| n.parse().ok()).unwrap_or(2);
+    for scene in lamma_domains::scene::names() {
+        for task in generate::tasks(&scene, count, 11).unwrap() {
+            let (setup, goal) = task.world(0).unwrap_or_else(|e| panic!("{}: {e}", task.id));
+            assert!(!task.goal.is_empty(), "{}: nothing to do", task.id);
+            assert!(plannable(&setup, &goal), "{}: out of reach: {}", task.id, task.instruction);
+        }
+    }
+    assert_eq!(generate::tasks("FloorPlan6", 5, 3).unwrap(), generate::tasks("FloorPlan6", 5, 3).unwrap());
 }
 
 /// Whether the robots of the world, each within its skills, can reach the goal.
