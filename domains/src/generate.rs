@@ -167,7 +167,7 @@ fn team(parts: &[Part], random: &mut Seed) -> Vec<Member> {
     }
     for part in parts {
         let able = |r: &&Robot| part.skills.iter().all(|s| r.has(s)) && r.capacity_kg >= part.mass_kg;
-        if !team.iter().any(|r| able(r)) {
+        if !team.iter().any(&able) {
             let able: Vec<&Robot> = all.iter().filter(able).collect();
             // The catalogue has robots with all skills and 100 kg, so there always is one.
             team.extend(able.get(random.below(able.len())));
