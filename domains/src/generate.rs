@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use crate::HouseError;
 use crate::goal::{Content, GoalEntry, PropertyValue};
-use crate::kinds::Kinds;
+use crate::kinds::{self, Kinds};
 use crate::robots::{self, Member, Robot};
 use crate::scene;
 use crate::seed::Seed;
@@ -129,13 +129,25 @@ fn bring(x: &Thing, free: &[&Thing], random: &mut Seed) -> Option<(Part, Vec<Str
         contains: vec![Content::Named(x.kind.clone())],
         ..GoalEntry::default()
     };
-    let text = format!("put the {} in the {}", spoken(&x.kind), spoken(&place.kind));
+    let text =
+        format!("put the {} {} the {}", spoken(&x.kind), preposition(&place.kind), spoken(&place.kind));
     let skills = &["PickupObject", "PutObject", "OpenObject"];
     Some((Part { text, goal, skills, mass_kg: x.mass_kg }, vec![x.kind.clone(), place.kind.clone()]))
 }
 
-/// `coffee machine` of `CoffeeMachine`.
+/// Things lie on surfaces and in everything with sides.
+fn preposition(receptacle: &str) -> &'static str {
+    let hollow =
+        ["Basin", "Bathtub", "Bowl", "CoffeeMachine", "Cup", "GarbageCan", "Mug", "Pan", "Pot", "Sink"];
+    let sides = hollow.iter().any(|h| receptacle.ends_with(h)) || kinds::encloses(receptacle);
+    if sides { "in" } else { "on" }
+}
+
+/// `coffee machine` of `CoffeeMachine`; a light switch is called the light.
 fn spoken(kind: &str) -> String {
+    if kind == "LightSwitch" {
+        return "light".to_string();
+    }
     let mut words = String::new();
     for (index, c) in kind.chars().enumerate() {
         if c.is_ascii_uppercase() && index > 0 && !words.ends_with(|p: char| p.is_ascii_uppercase()) {
