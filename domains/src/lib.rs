@@ -3,6 +3,7 @@
 pub mod condition;
 pub mod error;
 mod facts;
+pub mod generate;
 pub mod goal;
 pub mod goal_error;
 pub mod kinds;

@@ -9,7 +9,7 @@
 //!    it about (a coffee machine makes hot).
 //!
 //! What the sentence asks for beyond the goal does not count against it: doing more than is checked is no
-//! failure. A sentence that only hints ("prepare ingredients for tomorrow") does not agree with any goal.
+//! failure. A sentence that only hints at its goal ("get the place ready for guests") agrees with none.
 
 use crate::goal::{Content, GoalEntry, PropertyValue};
 use crate::kinds::{Kind, Kinds};
@@ -144,6 +144,44 @@ fn asked(property: &str, value: &PropertyValue, words: &[String]) -> bool {
             };
             says(&[&word.to_ascii_lowercase()])
                 || Kinds::get().all().any(|(name, kind)| appliance(kind) && named(name, words))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn goals_agree_with_sentences_that_ask_for_them() {
+        for (sentence, goal, agrees) in [
+            (
+                "Lay the keychain and the pens on the desk",
+                r#"[{"object": "Desk", "contains": ["KeyChain", "Pen"]}]"#,
+                true,
+            ),
+            ("Lay the pens on the desk", r#"[{"object": "Desk", "contains": ["Pencil"]}]"#, false),
+            ("Cool the vegetables", r#"[{"object": "Fridge", "contains": ["Potato", "Tomato"]}]"#, true),
+            ("Cool the potatoes", r#"[{"object": "Fridge", "contains": ["Tomato"]}]"#, false),
+            ("Fry the potatoes", r#"[{"object": "Tomato", "is": {"isCooked": true}}]"#, false),
+            (
+                "Chop the tomatos, then the light goes off",
+                r#"[{"object": "Tomato", "is": {"isSliced": true}}, {"object": "LightSwitch", "is": {"isToggled": false}}]"#,
+                true,
+            ),
+            ("Look at the tomato", r#"[{"object": "Tomato", "is": {"isSliced": true}}]"#, false),
+            (
+                "Use the coffee machine with the mug",
+                r#"[{"object": "Mug", "is": {"temperature": "Hot"}}]"#,
+                true,
+            ),
+            ("Smash the gadgets", r#"[{"object": "CellPhone", "is": {"isBroken": true}}]"#, true),
+            ("Get the place ready for guests", r#"[{"object": "Sofa", "contains": ["Pillow"]}]"#, false),
+            ("Anything", "[]", false),
+        ] {
+            let goal: Vec<GoalEntry> = serde_json::from_str(goal).unwrap();
+            let judged = judge(sentence, &goal);
+            assert_eq!(judged.agrees, agrees, "{sentence}: {:?}", judged.reasons);
         }
     }
 }
