@@ -13,6 +13,7 @@ pub(crate) fn simplify(ground: &mut Ground) {
             ground.operators.clear();
             ground.rules.clear();
             ground.goal = Stretch::default();
+            ground.relevant = vec![false; ground.names.len()];
             return;
         }
         let reachable = if ground.approximate { reachable(ground) } else { vec![true; ground.names.len()] };

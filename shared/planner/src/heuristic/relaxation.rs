@@ -52,6 +52,8 @@ pub struct Relaxation<'a> {
     agenda: Vec<FactId>,
     /// The operators of the last relaxed plan.
     relaxed_plan: Vec<OperatorId>,
+    /// What it makes true and needs.
+    relaxed_facts: Vec<FactId>,
 }
 
 impl<'a> Relaxation<'a> {
@@ -80,6 +82,7 @@ impl<'a> Relaxation<'a> {
             marked_operators: Stamps::new(task.operators.len()),
             agenda: Vec::new(),
             relaxed_plan: Vec::new(),
+            relaxed_facts: Vec::new(),
             graph,
             is_goal,
         }
@@ -171,10 +174,16 @@ impl<'a> Relaxation<'a> {
         &self.relaxed_plan
     }
 
+    /// The facts that the relaxed plan of the state evaluated last makes true and needs.
+    pub(crate) fn relaxed_facts(&self) -> &[FactId] {
+        &self.relaxed_facts
+    }
+
     /// h_FF of a state; the relaxed plan is then at [`Relaxation::relaxed_plan`].
     pub fn hff(&mut self, state: &[u64], preferred: &mut Vec<OperatorId>) -> Option<u32> {
         self.propagate::<false>(state, false);
         self.relaxed_plan.clear();
+        self.relaxed_facts.clear();
         if self.task.goal.iter().any(|fact| self.fact_cost[fact.index()] == UNREACHED) {
             return None;
         }
@@ -186,10 +195,11 @@ impl<'a> Relaxation<'a> {
         self.agenda.extend_from_slice(&self.task.goal);
         while let Some(fact) = self.agenda.pop() {
             let node = self.supporter[fact.index()];
-            if !self.marked_facts.mark(fact.index())
-                || node == NO_NODE
-                || !self.marked_nodes.mark(node as usize)
-            {
+            if !self.marked_facts.mark(fact.index()) || node == NO_NODE {
+                continue;
+            }
+            self.relaxed_facts.push(fact);
+            if !self.marked_nodes.mark(node as usize) {
                 continue;
             }
             self.agenda.extend_from_slice(self.graph.conditions.row(node as usize));
