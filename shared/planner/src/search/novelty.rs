@@ -17,6 +17,9 @@ use crate::task::{FactId, OperatorId, Task};
 /// The bytes that tables of pairs may take; partitions beyond that see only single facts.
 const MAX_PAIR_BYTES: usize = 256 << 20;
 
+/// The mark of a reference that is not worked out yet.
+const PENDING: u32 = u32::MAX;
+
 /// One search; it can be run in slices.
 pub(super) struct WidthSearch<'a, 't> {
     task: &'t Task,
@@ -42,6 +45,7 @@ pub(super) struct WidthSearch<'a, 't> {
     variable_of_bit: Vec<u32>,
     applicable: Vec<OperatorId>,
     changed: Vec<FactId>,
+    preferred: Vec<OperatorId>,
     started: bool,
 }
 
@@ -95,6 +99,7 @@ impl<'a, 't> WidthSearch<'a, 't> {
             variable_of_bit,
             applicable: Vec::new(),
             changed: Vec::new(),
+            preferred: Vec::new(),
             started: false,
         }
     }
@@ -118,6 +123,9 @@ impl<'a, 't> WidthSearch<'a, 't> {
             };
             meter.expand(|| self.bytes())?;
             state.copy_from_slice(self.registry.state(id));
+            if self.nodes[id.0 as usize].reference == PENDING && !self.refer(id, &state) {
+                continue;
+            }
             let mut applicable = std::mem::take(&mut self.applicable);
             applicable.clear();
             self.successors.applicable(self.task, &state, &mut applicable);
@@ -147,53 +155,46 @@ impl<'a, 't> WidthSearch<'a, 't> {
         if self.task.is_goal(&init) {
             return true;
         }
-        let reference = self.refer(&init);
-        let node = Node { landmarks, reference: reference.unwrap_or(0), achieved: 0, partition: 0 };
-        self.nodes.push(node);
-        if let Some(reference) = reference {
-            self.achieved.resize(self.references[reference as usize].len().div_ceil(64), 0);
-            self.changed.clear();
-            self.changed.extend(self.task.facts_of(&init));
-            self.partition_of(landmarks, 0);
-            self.novelty(0, &init, true);
-            self.open.push(0, StateId(0));
-        }
+        self.nodes.push(Node { landmarks, reference: PENDING, achieved: 0, partition: 0 });
+        self.changed.clear();
+        self.changed.extend(self.task.facts_of(&init));
+        self.partition_of(landmarks, 0);
+        self.novelty(0, &init, true);
+        self.open.push(0, StateId(0));
         false
     }
 
-    /// Makes the relaxed plan of a state the reference from there on; `None` at a dead end.
-    fn refer(&mut self, state: &[u64]) -> Option<u32> {
-        self.relaxation.hff(state, &mut Vec::new())?;
+    /// Makes the relaxed plan of a state the reference from there on; false at a dead end.
+    fn refer(&mut self, id: StateId, state: &[u64]) -> bool {
+        self.preferred.clear();
+        if self.relaxation.hff(state, &mut self.preferred).is_none() {
+            return false;
+        }
         let mut facts = self.relaxation.relaxed_facts().to_vec();
         facts.sort_unstable();
+        let node = &mut self.nodes[id.0 as usize];
+        node.reference = self.references.len() as u32;
+        node.achieved = self.achieved.len() as u32;
+        self.achieved.resize(self.achieved.len() + facts.len().div_ceil(64), 0);
         self.references.push(facts);
-        Some(self.references.len() as u32 - 1)
+        true
     }
 
     fn evaluate(&mut self, parent: StateId, id: StateId, state: &[u64], next: &[u64]) {
         let landmarks = self.status.count(self.task, self.landmarks, id.0 as usize, next);
         let from = self.nodes[parent.0 as usize];
         let start = self.achieved.len() as u32;
-        let dead = Node { landmarks, reference: from.reference, achieved: start, partition: from.partition };
-        let reference = if landmarks < from.landmarks {
-            match self.refer(next) {
-                Some(reference) => reference,
-                None => return self.nodes.push(dead),
-            }
-        } else {
-            from.reference
-        };
         self.find_changes(state, next);
-        let words = self.references[reference as usize].len().div_ceil(64);
-        if reference == from.reference {
+        // Where the count falls a new relaxed plan becomes the reference, worked out on expansion.
+        let reference = if landmarks < from.landmarks { PENDING } else { from.reference };
+        if reference != PENDING {
+            let words = self.references[reference as usize].len().div_ceil(64);
             self.achieved.extend_from_within(from.achieved as usize..from.achieved as usize + words);
             for fact in &self.changed {
                 if let Ok(at) = self.references[reference as usize].binary_search(fact) {
                     self.achieved[start as usize + at / 64] |= 1 << (at % 64);
                 }
             }
-        } else {
-            self.achieved.resize(start as usize + words, 0);
         }
         let count: u32 = self.achieved[start as usize..].iter().map(|word| word.count_ones()).sum();
         let partition = self.partition_of(landmarks, count);
