@@ -13,6 +13,6 @@ pub mod task;
 pub use ground::{GroundError, GroundLimits, ground};
 pub use plan::{GroundAct, Literal, Plan};
 pub use search::{
-    GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, plan, relaxed_plan_cost, solve,
+    Engine, GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, plan, relaxed_plan_cost, solve,
 };
 pub use task::{FactId, OperatorId, State, Task};

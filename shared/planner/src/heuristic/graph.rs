@@ -28,7 +28,18 @@ pub(crate) struct Graph {
 }
 
 impl Graph {
+    /// The graph without conditional effects that are superfluous for reachability.
     pub fn new(task: &Task) -> Self {
+        Self::build(task, true)
+    }
+
+    /// The graph with everything: an operator already paid for may give an effect that another, cheaper one
+    /// gives too, so leaving it out would not keep the cost of relaxed plans.
+    pub fn complete(task: &Task) -> Self {
+        Self::build(task, false)
+    }
+
+    fn build(task: &Task, prune: bool) -> Self {
         let mut wanted = vec![false; task.facts.len()];
         let asked = task.preconditions.items().iter().chain(task.effect_conditions.items());
         for fact in asked.chain(task.axiom_bodies.items()).chain(&task.goal) {
@@ -40,7 +51,7 @@ impl Graph {
             let precondition = task.preconditions(operator);
             nodes.add(precondition, task.effects(operator), index as u32);
         }
-        nodes.add_undominated(&conditional_nodes(task));
+        nodes.add_conditional(&conditional_nodes(task), prune);
         for axiom in &task.axioms {
             nodes.add(task.axiom_bodies.row(axiom.body as usize), &[axiom.head], NO_NODE);
         }
@@ -150,12 +161,12 @@ struct Nodes<'a> {
 }
 
 impl Nodes<'_> {
-    /// Adds the nodes that no other makes superfluous: "what the robot holds comes along" is an effect of
+    /// Adds the nodes, with `prune` without those that others make superfluous: "what the robot holds comes along" is an effect of
     /// going anywhere, and for the relaxed task of going to one place.
-    fn add_undominated(&mut self, singles: &[Single]) {
-        let rows = Rows::new(singles);
+    fn add_conditional(&mut self, singles: &[Single], prune: bool) {
+        let rows = Rows::new(if prune { singles } else { &[] });
         for (at, single) in singles.iter().enumerate() {
-            if self.wanted[single.row[0].index()] && !rows.dominated(at as u32) {
+            if self.wanted[single.row[0].index()] && !(prune && rows.dominated(at as u32)) {
                 self.add(&single.row[1..], &single.row[..1], single.operator);
             }
         }

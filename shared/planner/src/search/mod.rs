@@ -1,5 +1,6 @@
 //! Searching for plans.
 
+mod astar;
 mod greedy;
 mod improve;
 mod limits;
@@ -16,7 +17,7 @@ use lamma_pddl::ast::{Domain, Problem};
 pub use limits::{GaveUp, Limits, Outcome, Unsolvable};
 
 use crate::ground::{GroundError, GroundLimits, ground};
-use crate::heuristic::{Costs, Graph, Relaxation};
+use crate::heuristic::{Blind, Costs, Graph, Heuristic, LandmarkCut, Relaxation};
 use crate::successor::Successors;
 use crate::task::{OperatorId, Task};
 use limits::Meter;
@@ -39,9 +40,37 @@ const IMPROVEMENT_WORK: u64 = 400_000;
 /// How to search.
 #[derive(Clone, Debug, Default)]
 pub struct SearchOptions {
+    /// Which search.
+    pub engine: Engine,
     /// States estimated to make the first plan better; zero: only useless actions are dropped. `None`: what
     /// takes about a millisecond, which is much for household tasks and next to nothing for large ones.
     pub improvement: Option<u64>,
+}
+
+/// The searches there are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Engine {
+    /// A plan soon: greedy search with h_FF and landmarks in turns with novelty search, then improvement.
+    #[default]
+    Portfolio,
+    /// A cheapest plan: A* with the landmark-cut heuristic.
+    AstarLmcut,
+    /// A cheapest plan: uniform-cost search.
+    AstarBlind,
+}
+
+impl Engine {
+    /// Every engine with the name it has on command lines.
+    pub const ALL: [(&'static str, Engine); 3] = [
+        ("portfolio", Engine::Portfolio),
+        ("astar-lmcut", Engine::AstarLmcut),
+        ("astar-blind", Engine::AstarBlind),
+    ];
+
+    /// The engine of a name.
+    pub fn named(name: &str) -> Option<Engine> {
+        Engine::ALL.iter().find(|(known, _)| *known == name).map(|&(_, engine)| engine)
+    }
 }
 
 /// What a search did.
@@ -81,9 +110,20 @@ pub fn solve_with_statistics(
     }
     let successors = Successors::new(task);
     let mut meter = Meter::new(limits, cancel);
-    let found = portfolio::first_plan(task, &graph, &successors, &mut meter, statistics);
+    let optimal = |heuristic: &mut dyn Heuristic, meter: &mut Meter<'_>| {
+        astar::astar(task, &successors, heuristic, meter).map(|progress| match progress {
+            Progress::Solved(path) => Some(path),
+            Progress::Exhausted { .. } | Progress::Paused => None,
+        })
+    };
+    let found = match options.engine {
+        Engine::Portfolio => portfolio::first_plan(task, &graph, &successors, &mut meter, statistics),
+        Engine::AstarLmcut => optimal(&mut LandmarkCut::new(task, Costs::Real), &mut meter),
+        Engine::AstarBlind => optimal(&mut Blind, &mut meter),
+    };
     statistics.expanded = meter.expanded;
     match found {
+        Ok(Some(path)) if options.engine != Engine::Portfolio => Outcome::Found(task.plan(&path)),
         Err(reason) => Outcome::GaveUp(reason),
         Ok(None) => Outcome::Unsolvable(Unsolvable::Exhausted),
         Ok(Some(path)) => {
