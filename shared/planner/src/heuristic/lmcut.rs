@@ -2,10 +2,9 @@
 //! the difference anyway?", section 4). Deviation: costs are lowered by operator, not by node of the
 //! relaxed graph, so that the sum stays admissible for operators with conditional effects.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 use std::rc::Rc;
 
+use super::bucket_queue::BucketQueue;
 use super::graph::{Graph, NO_NODE};
 use super::{Costs, Estimate, Heuristic, Properties};
 use crate::csr::Csr;
@@ -30,7 +29,7 @@ pub struct LandmarkCut<'a> {
     /// The dearest condition of each node, and its cost.
     supporter: Vec<FactId>,
     supporter_cost: Vec<u32>,
-    queue: BinaryHeap<Reverse<(u32, FactId)>>,
+    queue: BucketQueue,
     zone: Vec<Zone>,
     agenda: Vec<FactId>,
     cut: Vec<u32>,
@@ -69,7 +68,7 @@ impl<'a> LandmarkCut<'a> {
             missing: vec![0; count],
             supporter: vec![FactId(0); count],
             supporter_cost: vec![0; count],
-            queue: BinaryHeap::new(),
+            queue: BucketQueue::default(),
             zone: vec![Zone::Unknown; task.facts.len()],
             agenda: Vec::new(),
             cut: Vec::new(),
@@ -85,7 +84,7 @@ impl<'a> LandmarkCut<'a> {
     fn reach(&mut self, fact: FactId, cost: u32) {
         if cost < self.fact_cost[fact.index()] {
             self.fact_cost[fact.index()] = cost;
-            self.queue.push(Reverse((cost, fact)));
+            self.queue.push(cost, fact);
         }
     }
 
@@ -99,6 +98,7 @@ impl<'a> LandmarkCut<'a> {
     /// h_max from scratch.
     fn explore(&mut self, state: &[u64]) {
         self.fact_cost.fill(UNREACHED);
+        self.queue.clear();
         self.missing.copy_from_slice(&self.graph.condition_count);
         let task = self.task;
         task.facts_of(state).for_each(|fact| self.reach(fact, 0));
@@ -108,7 +108,7 @@ impl<'a> LandmarkCut<'a> {
             self.supporter_cost[node as usize] = 0;
             self.fire(node as usize);
         }
-        while let Some(Reverse((cost, fact))) = self.queue.pop() {
+        while let Some((cost, fact)) = self.queue.pop() {
             if self.fact_cost[fact.index()] != cost {
                 continue;
             }
@@ -127,6 +127,7 @@ impl<'a> LandmarkCut<'a> {
 
     /// h_max again, after the operators of the cut became cheaper.
     fn explore_again(&mut self) {
+        self.queue.clear();
         let graph = Rc::clone(&self.graph);
         for at in 0..self.cut.len() {
             let operator = graph.operator_of[self.cut[at] as usize] as usize;
@@ -137,7 +138,7 @@ impl<'a> LandmarkCut<'a> {
                 }
             }
         }
-        while let Some(Reverse((cost, fact))) = self.queue.pop() {
+        while let Some((cost, fact)) = self.queue.pop() {
             if self.fact_cost[fact.index()] != cost {
                 continue;
             }

@@ -1,5 +1,6 @@
 //! Heuristics and what they promise.
 
+mod bucket_queue;
 mod graph;
 mod landmark;
 mod lmcut;

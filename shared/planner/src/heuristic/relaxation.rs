@@ -4,6 +4,7 @@
 
 use std::rc::Rc;
 
+use super::bucket_queue::BucketQueue;
 use super::graph::{Graph, NO_NODE};
 use super::{Estimate, Heuristic, Properties};
 use crate::task::{FactId, OperatorId, Task};
@@ -235,52 +236,6 @@ impl Heuristic for Relaxation<'_> {
 
     fn estimate(&mut self, state: &[u64], preferred: &mut Vec<OperatorId>) -> Estimate {
         self.hff(state, preferred).map_or(Estimate::DeadEnd, Estimate::Cost)
-    }
-}
-
-/// Facts by cost: a bucket for each small cost, a heap for the rest.
-#[derive(Debug, Default)]
-struct BucketQueue {
-    buckets: Vec<Vec<FactId>>,
-    at: usize,
-    highest: usize,
-    dear: std::collections::BinaryHeap<std::cmp::Reverse<(u32, FactId)>>,
-}
-
-impl BucketQueue {
-    const BUCKETS: usize = 1 << 14;
-
-    fn clear(&mut self) {
-        for bucket in self.buckets.iter_mut().take(self.highest + 1) {
-            bucket.clear();
-        }
-        self.dear.clear();
-        self.at = 0;
-        self.highest = 0;
-    }
-
-    #[inline]
-    fn push(&mut self, cost: u32, fact: FactId) {
-        let at = cost as usize;
-        if at >= Self::BUCKETS {
-            return self.dear.push(std::cmp::Reverse((cost, fact)));
-        }
-        if at >= self.buckets.len() {
-            self.buckets.resize_with(at + 1, Vec::new);
-        }
-        self.highest = self.highest.max(at);
-        self.buckets[at].push(fact);
-    }
-
-    #[inline]
-    fn pop(&mut self) -> Option<(u32, FactId)> {
-        while self.at < self.buckets.len() && self.at <= self.highest {
-            if let Some(fact) = self.buckets[self.at].pop() {
-                return Some((self.at as u32, fact));
-            }
-            self.at += 1;
-        }
-        self.dear.pop().map(|std::cmp::Reverse(entry)| entry)
     }
 }
 

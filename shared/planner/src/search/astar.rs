@@ -1,7 +1,7 @@
 //! A* (Hart, Nilsson & Raphael 1968): with an admissible heuristic the first plan found is a cheapest one.
 //! States are opened again when a cheaper way to them is found, so the heuristic need not be consistent.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
 use super::limits::Meter;
 use super::registry::{Registry, StateId};
@@ -25,12 +25,13 @@ pub(super) fn astar(
     let mut costs: Vec<u64> = vec![0];
     let mut estimates = vec![Estimate::Cost(start)];
     // By f, then by h: among equals the one that seems nearest to the goal.
-    let mut open: BTreeMap<(u64, u32), Vec<(StateId, u64)>> = BTreeMap::new();
-    open.entry((u64::from(start), start)).or_default().push((StateId(0), 0));
+    let mut open: BTreeMap<(u64, u32), VecDeque<(StateId, u64)>> = BTreeMap::new();
+    open.entry((u64::from(start), start)).or_default().push_back((StateId(0), 0));
     let mut entries = 1usize;
     let (mut state, mut next, mut applicable) = (task.init.clone(), task.init.clone(), Vec::new());
     while let Some(mut lowest) = open.first_entry() {
-        let Some((id, cost)) = lowest.get_mut().pop() else {
+        let bound = lowest.key().0;
+        let Some((id, cost)) = lowest.get_mut().pop_front() else {
             lowest.remove();
             continue;
         };
@@ -60,8 +61,12 @@ pub(super) fn astar(
             } else {
                 continue;
             }
+            // Nothing left is cheaper than the lowest f.
+            if cost <= bound && task.is_goal(&next) {
+                return Ok(Progress::Solved(registry.path(successor)));
+            }
             if let Estimate::Cost(h) = estimates[index] {
-                open.entry((cost + u64::from(h), h)).or_default().push((successor, cost));
+                open.entry((cost + u64::from(h), h)).or_default().push_back((successor, cost));
                 entries += 1;
             }
         }
