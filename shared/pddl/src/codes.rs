@@ -27,12 +27,12 @@ codes! {
         the missing `)` belongs somewhere between the other place shown and there."
     STRAY = "pddl::stray-parenthesis":
         "A `)` closes nothing. Often the parenthesis before it was one too many, and the sections after it are then \
-        outside the `(define …)`."
+        outside the `(define ...)`."
     TRAILING = "pddl::trailing-text":
-        "There is more text after the end of the `(define …)`. A file holds one domain or one problem; only comments \
+        "There is more text after the end of the `(define ...)`. A file holds one domain or one problem; only comments \
         may follow it."
     WRONG_FILE = "pddl::wrong-file":
-        "A domain begins with `(define (domain NAME) …)` and a problem with `(define (problem NAME) (:domain NAME) …)`. \
+        "A domain begins with `(define (domain NAME) ...)` and a problem with `(define (problem NAME) (:domain NAME) ...)`. \
         The text is something else; often the two files were given in the wrong order."
     SYNTAX = "pddl::syntax":
         "Something else was expected here. The message says what; the help shows the form."
@@ -51,7 +51,7 @@ codes! {
     BAD_NUMBER = "pddl::bad-number":
         "A number was expected, such as `3`, `0.5` or `-2`, and it must be finite."
     NEGATIVE_INIT = "pddl::negative-init":
-        "What `:init` does not name is false, so `(not …)` there says nothing. It was ignored."
+        "What `:init` does not name is false, so `(not ...)` there says nothing. It was ignored."
     DURATION_RANGE = "pddl::duration-range":
         "The duration is a range and the planner's schedules need a number. The lower bound was taken."
     DIGIT_NAME = "pddl::digit-name":
@@ -62,19 +62,19 @@ codes! {
         "The domain uses a part of PDDL that its `:requirements` do not name. It is understood all the same; other \
         planners and validators may refuse it. Add the requirement."
     UNKNOWN_TYPE = "pddl::unknown-type":
-        "The type is not declared in `(:types …)`. Without a declaration it has no objects. Declare it, or correct \
+        "The type is not declared in `(:types ...)`. Without a declaration it has no objects. Declare it, or correct \
         the spelling."
     CYCLIC_TYPES = "pddl::cyclic-types":
         "A type is, through its supertypes, a kind of itself. Remove one of the links of the circle."
     UNKNOWN_PREDICATE = "pddl::unknown-predicate":
-        "The predicate is not declared in `(:predicates …)` of the domain. A condition on it could never hold unless an \
+        "The predicate is not declared in `(:predicates ...)` of the domain. A condition on it could never hold unless an \
         effect or `:init` uses the same undeclared name; most often it is a misspelling or was forgotten. Declare it, \
         with a type for each parameter."
     UNKNOWN_FUNCTION = "pddl::unknown-function":
-        "The numeric function is not declared in `(:functions …)` of the domain."
+        "The numeric function is not declared in `(:functions ...)` of the domain."
     UNKNOWN_OBJECT = "pddl::unknown-object":
         "The name is neither an object of the problem nor a constant of the domain. Actions that name an object \
-        directly need it among the domain's `(:constants …)`."
+        directly need it among the domain's `(:constants ...)`."
     UNKNOWN_VARIABLE = "pddl::unknown-variable":
         "The variable is neither a parameter nor bound by a surrounding `forall` or `exists`."
     UNKNOWN_ACTION = "pddl::unknown-action":
@@ -91,14 +91,14 @@ codes! {
         "A `forall` or `exists` uses a variable name that already means something here. Inside, the inner one counts. \
         Give it another name if that is not meant."
     DERIVED_EFFECT = "pddl::derived-in-effect":
-        "A predicate with a `(:derived …)` rule follows from the other facts; actions and `:init` cannot set it."
+        "A predicate with a `(:derived ...)` rule follows from the other facts; actions and `:init` cannot set it."
     UNSTRATIFIED = "pddl::unstratified-axioms":
         "A derived predicate depends on its own negation, so there is no order in which the rules can be applied \
         (axioms must be stratified: Thiébaux, Hoffmann & Nebel, \"In defense of PDDL axioms\", 2005)."
     DOMAIN_MISMATCH = "pddl::domain-mismatch":
-        "The problem's `(:domain …)` names another domain than the one given. It is used with the domain given."
+        "The problem's `(:domain ...)` names another domain than the one given. It is used with the domain given."
     PLAN_SYNTAX = "plan::syntax":
-        "A plan has one action a line, `(action argument …)`, with an optional time before it (`0.000:`) and an \
+        "A plan has one action a line, `(action argument ...)`, with an optional time before it (`0.000:`) and an \
         optional duration after it (`[1.000]`). Comments run from `;` to the end of the line."
 }
 

@@ -153,6 +153,11 @@ impl Report {
         self.diagnostics.is_empty()
     }
 
+    /// Whether further findings are only counted, so that it is no use to word them.
+    pub fn is_full(&self) -> bool {
+        self.diagnostics.len() >= Self::MAX_DIAGNOSTICS && self.has_errors()
+    }
+
     /// How many findings there were beyond those kept.
     pub fn omitted(&self) -> usize {
         self.omitted

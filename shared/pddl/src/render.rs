@@ -3,8 +3,8 @@
 use std::fmt;
 
 use miette::{
-    GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents,
-    SourceCode, SourceSpan, SpanContents,
+    GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
+    SourceSpan, SpanContents,
 };
 
 use crate::diagnostic::{Diagnostic, Report, Severity};
@@ -17,7 +17,7 @@ const WINDOW_BYTES: usize = 60;
 const LABELS_SHOWN: usize = 4;
 
 impl Report {
-    /// The report as plain ASCII text, without colour.
+    /// The report as plain text, without colour or line drawing.
     pub fn render(&self) -> String {
         self.render_with(GraphicalTheme::none())
     }
@@ -31,6 +31,9 @@ impl Report {
         let handler = GraphicalReportHandler::new_themed(theme).with_links(false).with_width(100);
         let mut text = String::new();
         for diagnostic in self.diagnostics() {
+            if !text.is_empty() {
+                text.push('\n');
+            }
             let rendered = Rendered { diagnostic, source: self.source() };
             // Writing to a string does not fail; a snippet that cannot be shown shows its message at least.
             if handler.render_report(&mut text, &rendered).is_err() {

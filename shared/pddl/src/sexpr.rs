@@ -7,7 +7,7 @@ use crate::source::{MAX_SOURCE_BYTES, Source};
 
 const MAX_NESTING: usize = 256;
 const MAX_WORD_BYTES: usize = 1024;
-const MAX_TOKENS: usize = 8 << 20;
+pub(crate) const MAX_TOKENS: usize = 8 << 20;
 
 /// A word or a list.
 #[derive(Debug)]
@@ -140,7 +140,9 @@ impl<'s> Reader<'s, '_> {
                 b'(' => self.open_list(start)?,
                 b')' => self.close_list(start),
                 _ => {
-                    at = bytes[start..].iter().position(|b| is_delimiter(*b)).map_or(bytes.len(), |n| start + n);
+                    // A variable's mark begins a word too: `(aircraft?a)` stands in an IPC domain.
+                    let ends = |b: &u8| is_delimiter(*b) || *b == b'?';
+                    at = bytes[at..].iter().position(ends).map_or(bytes.len(), |n| at + n);
                     self.word(Word { text: &text[start..at], span: Span::new(start, at) })?;
                 }
             }
@@ -152,7 +154,11 @@ impl<'s> Reader<'s, '_> {
             }
         }
         if !self.open.is_empty() {
-            self.report_unclosed(Span::new(text.trim_end().len().saturating_sub(1), text.trim_end().len()), "the text ends here", 0);
+            self.report_unclosed(
+                Span::new(text.trim_end().len().saturating_sub(1), text.trim_end().len()),
+                "the text ends here",
+                0,
+            );
             self.close_down_to(0, text.len());
         }
         Some(self.top)
@@ -193,12 +199,14 @@ impl<'s> Reader<'s, '_> {
         // A section inside a section means that the one before was not closed: mend it there, so that the rest
         // of the text is still understood.
         let begins_list = self.open.last().is_some_and(|list| list.items.is_empty());
-        if begins_list && self.open.len() > 2 && SECTIONS.iter().any(|section| word.is(section)) {
-            if let Some(list) = self.open.pop() {
-                self.report_unclosed(list.span.to(word.span), "this section begins inside another one", 1);
-                self.close_down_to(1, list.span.start as usize);
-                self.open.push(list);
-            }
+        let is_section = begins_list && SECTIONS.iter().any(|section| word.is(section));
+        if is_section
+            && self.open.len() > 2
+            && let Some(list) = self.open.pop()
+        {
+            self.report_unclosed(list.span.to(word.span), "this section begins inside another one", 1);
+            self.close_down_to(1, list.span.start as usize);
+            self.open.push(list);
         }
         self.put(Sexpr::Word(word));
         Some(())
@@ -268,7 +276,8 @@ mod tests {
         let source = Source::new("x", text);
         let mut report = Report::new(&source);
         let top = read(&source, &mut report);
-        let shown = top.map_or("refused".to_owned(), |top| top.iter().map(show).collect::<Vec<_>>().join(" "));
+        let shown =
+            top.map_or("refused".to_owned(), |top| top.iter().map(show).collect::<Vec<_>>().join(" "));
         (shown, report.diagnostics().iter().map(|d| d.code).collect())
     }
 
@@ -281,8 +290,8 @@ mod tests {
 
     #[test]
     fn blanks_and_comments_separate_words() {
-        let (shown, codes) = read_all("; x (\n(a\tb\x0c?c;y)\n\r(-1.5e3)) ; end");
-        assert_eq!((shown.as_str(), codes.len()), ("(a b ?c (-1.5e3))", 0));
+        let (shown, codes) = read_all("; x (\n(a\tb?c;y)\n)\x0c\r(-1.5e3) ; end");
+        assert_eq!((shown.as_str(), codes.len()), ("(a b ?c) (-1.5e3)", 0));
     }
 
     #[test]

@@ -6,13 +6,15 @@ use crate::name::Name;
 pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a Name>) -> Option<&'a Name> {
     // The time is quadratic in the length: beyond this nobody mistypes, somebody attacks.
     const LONGEST: usize = 64;
+    const MOST: usize = 20_000;
     if wanted.len() > LONGEST {
         return None;
     }
     let allowed = (wanted.chars().count() / 3).max(1);
     known
         .into_iter()
-        .filter(|name| name.as_str().len() <= LONGEST && *name != wanted)
+        .filter(|name| name.as_str().len().abs_diff(wanted.len()) <= allowed && *name != wanted)
+        .take(MOST)
         .map(|name| (edit_distance(wanted, name.as_str()), name))
         .filter(|(distance, _)| *distance <= allowed)
         .min_by(|a, b| a.cmp(b))

@@ -43,7 +43,8 @@ fn read(path: &Path) -> Result<Report, Report> {
 #[test]
 fn every_file_of_the_data_folder_is_read_or_its_fault_is_named() {
     let extra = std::env::var_os("LAMMA_PDDL_FOLDER").map(PathBuf::from);
-    let folders: Vec<PathBuf> = std::iter::once(data_folder()).chain(extra).filter(|path| path.is_dir()).collect();
+    let folders: Vec<PathBuf> =
+        std::iter::once(data_folder()).chain(extra).filter(|path| path.is_dir()).collect();
     if folders.is_empty() {
         println!("skipped: no data folder at {}", data_folder().display());
         return;
@@ -65,5 +66,9 @@ fn every_file_of_the_data_folder_is_read_or_its_fault_is_named() {
         }
     }
     refused.iter().for_each(|report| println!("{report}"));
-    println!("{files} files: {} read, {warned} of them with warnings, {} are not PDDL", files - refused.len(), refused.len());
+    println!(
+        "{files} files: {} read, {warned} of them with warnings, {} are not PDDL",
+        files - refused.len(),
+        refused.len()
+    );
 }

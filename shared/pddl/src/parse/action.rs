@@ -46,27 +46,30 @@ impl Parser {
         known: &[&'static str],
     ) -> Option<Fields<'t, 's>> {
         let Some(name) = list.items.get(1) else {
-            self.expected(list.place(), "a name", "`(:action NAME :parameters (…) :precondition (…) :effect (…))`");
+            self.expected(
+                list.place(),
+                "a name",
+                "`(:action NAME :parameters (...) :precondition (...) :effect (...))`",
+            );
             return None;
         };
         let name = self.name(name, "the name of the action")?;
         let mut fields = Fields { name, agent: None, params: Vec::new(), values: Vec::new() };
         let mut rest = &list.items[2..];
         while let Some((first, after)) = rest.split_first() {
-            let Some(keyword) = self.field_keyword(first, known) else {
-                rest = after;
-                continue;
-            };
-            let values = after.iter().take_while(|item| !item.as_word().is_some_and(|word| word.is_keyword()));
+            let keyword = self.field_keyword(first, known);
+            let values =
+                after.iter().take_while(|item| !item.as_word().is_some_and(|word| word.is_keyword()));
             let (values, next) = after.split_at(values.count());
             rest = next;
+            let Some(keyword) = keyword else { continue };
             if keyword == ":agent" {
                 fields.agent = self.agent(first, values);
                 continue;
             }
             let [value] = values else {
                 let place = values.get(1).map_or(first.place(), Sexpr::place);
-                let help = "write `()` for none, and `(and …)` around several";
+                let help = "write `()` for none, and `(and ...)` around several";
                 self.expected(place, &format!("one expression after `{keyword}`"), help);
                 continue;
             };
@@ -112,7 +115,7 @@ impl Parser {
     ) {
         if fields.get(keyword).is_some() {
             let found = Diagnostic::error(codes::DUPLICATE, at.place(), format!("a second `{keyword}`"));
-            self.report.push(found.help("join the two with `(and …)`"));
+            self.report.push(found.help("join the two with `(and ...)`"));
             return;
         }
         fields.values.push((keyword, value));

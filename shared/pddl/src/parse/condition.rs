@@ -24,7 +24,11 @@ const TRAJECTORY: &[&str] = &[
 impl Parser {
     pub(super) fn condition(&mut self, sexpr: &Sexpr<'_>) -> Option<Condition> {
         let Some(list) = sexpr.as_list() else {
-            self.expected(sexpr.place(), "a condition", "conditions stand in parentheses: `(open ?x)`");
+            let help = match sexpr.as_word().is_some_and(|word| word.is_keyword()) {
+                true => "a `)` is missing before it",
+                false => "conditions stand in parentheses: `(open ?x)`",
+            };
+            self.expected(sexpr.place(), "a condition", help);
             return None;
         };
         if list.items.is_empty() {
@@ -32,7 +36,7 @@ impl Parser {
         }
         let Some(head) = list.head() else {
             let help = "`(and (a) (b))` joins conditions; `((a) (b))` means nothing";
-            self.expected(list.place(), "`and`, `or`, `not`, … or a predicate", help);
+            self.expected(list.place(), "`and`, `or`, `not`, ... or a predicate", help);
             return None;
         };
         match head.text.to_ascii_lowercase().as_str() {
@@ -89,8 +93,11 @@ impl Parser {
     }
 
     /// The variables and the body of `(forall (?x - t) …)`.
-    pub(super) fn quantifier<'t, 's>(&mut self, list: &'t List<'s>) -> Option<(Vec<TypedName>, &'t Sexpr<'s>)> {
-        let form = "`(forall (?x - type) …)`, with one formula after the variables";
+    pub(super) fn quantifier<'t, 's>(
+        &mut self,
+        list: &'t List<'s>,
+    ) -> Option<(Vec<TypedName>, &'t Sexpr<'s>)> {
+        let form = "`(forall (?x - type) ...)`, with one formula after the variables";
         let [params, body] = self.operands(list, "variables and one formula", form)?;
         let Some(params) = params.as_list() else {
             self.expected(params.place(), "variables in parentheses", form);
@@ -116,7 +123,7 @@ impl Parser {
 
     pub(super) fn atom(&mut self, list: &List<'_>) -> Option<Atom> {
         let Some(head) = list.items.first() else {
-            self.expected(list.place(), "a predicate", "`(predicate argument …)`");
+            self.expected(list.place(), "a predicate", "`(predicate argument ...)`");
             return None;
         };
         let predicate = self.name(head, "a predicate")?;

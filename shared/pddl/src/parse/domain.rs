@@ -1,6 +1,6 @@
 //! Domain files.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use super::Parser;
 use super::typed::Declares;
@@ -10,6 +10,9 @@ use crate::diagnostic::Diagnostic;
 use crate::name::Name;
 use crate::sexpr::{List, Sexpr, Word};
 use crate::suggest::did_you_mean;
+
+/// Types a domain may have.
+const MAX_TYPES: usize = 1024;
 
 const SECTIONS: &[&str] = &[
     ":requirements",
@@ -54,7 +57,20 @@ impl Parser {
                 _ => self.unknown_section(head, SECTIONS),
             }
         }
+        self.few_types(&domain);
         Some(domain)
+    }
+
+    /// The checker keeps which types are kinds of which, for every pair of them.
+    fn few_types(&mut self, domain: &Domain) {
+        let all = domain.types.iter().flat_map(|declared| declared.types.iter().chain([&declared.name]));
+        if all.collect::<BTreeSet<_>>().len() > MAX_TYPES {
+            self.error(
+                codes::TOO_LARGE,
+                domain.name.span(),
+                format!("the domain has more than {MAX_TYPES} types"),
+            );
+        }
     }
 
     /// Names with their colon. Of problems too, where they say nothing the domain did not say.
@@ -67,7 +83,9 @@ impl Parser {
                         requirements.push(self.intern(word.text, word.span));
                     }
                 }
-                None => self.expected(item.place(), "a requirement", "requirements begin with a colon: `:strips`"),
+                None => {
+                    self.expected(item.place(), "a requirement", "requirements begin with a colon: `:strips`")
+                }
             }
         }
         requirements
@@ -82,8 +100,8 @@ impl Parser {
             (":task", "hierarchical tasks need another planner"),
             (":method", "hierarchical tasks need another planner"),
             (":htn", "hierarchical tasks need another planner"),
-            (":shared-data", "use `(:private …)`, as CoDMAP does"),
-            (":global-goal", "use `(:goal …)`"),
+            (":shared-data", "use `(:private ...)`, as CoDMAP does"),
+            (":global-goal", "use `(:goal ...)`"),
         ];
         if let Some((section, help)) = unsupported.iter().find(|(section, _)| head.is(section)) {
             self.unsupported(head.span, &format!("`{section}`"), help);
@@ -91,7 +109,8 @@ impl Parser {
         }
         let names: Vec<Name> = known.iter().map(Name::new).collect();
         let help = did_you_mean(head.text, &names, format!("the sections are {}", known.join(" ")));
-        let found = Diagnostic::error(codes::UNKNOWN_SECTION, head.span, format!("unknown section `{}`", head.text));
+        let found =
+            Diagnostic::error(codes::UNKNOWN_SECTION, head.span, format!("unknown section `{}`", head.text));
         self.report.push(found.help(help));
     }
 

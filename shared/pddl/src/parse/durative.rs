@@ -3,6 +3,8 @@
 //! Sound for sequential plans: what an action achieves at its start counts for its later conditions, and where
 //! it takes back at its end what it achieved at its start, the end decides.
 
+use std::collections::BTreeSet;
+
 use super::Parser;
 use crate::ast::{Action, Atom, Condition, Effect, NumericExpr};
 use crate::codes;
@@ -31,7 +33,8 @@ impl Parser {
             }
         };
         let mut conditions = Vec::new();
-        let conditions_read = fields.get(":condition").is_none_or(|c| self.timed_condition(c, &mut conditions));
+        let conditions_read =
+            fields.get(":condition").is_none_or(|c| self.timed_condition(c, &mut conditions));
         let mut effects = Vec::new();
         let effects_read = fields.get(":effect").is_none_or(|e| self.timed_effect(e, &mut effects));
         let (precondition, effect) = flatten(conditions, effects);
@@ -55,7 +58,8 @@ impl Parser {
         };
         if list.head_is("and") {
             let bounds: Vec<&Sexpr<'_>> = list.rest().iter().collect();
-            let lower = bounds.iter().find(|b| b.as_list().is_some_and(|b| b.head_is(">=") || b.head_is("=")));
+            let lower =
+                bounds.iter().find(|b| b.as_list().is_some_and(|b| b.head_is(">=") || b.head_is("=")));
             return match lower.or(bounds.first()) {
                 Some(bound) => self.duration(bound),
                 None => {
@@ -90,7 +94,7 @@ impl Parser {
             }
         }
         let help = "in durative actions every condition and effect has its time: `(at start (idle ?r))`";
-        self.expected(list.place(), "`(at start …)`, `(over all …)` or `(at end …)`", help);
+        self.expected(list.place(), "`(at start ...)`, `(over all ...)` or `(at end ...)`", help);
         None
     }
 
@@ -104,7 +108,8 @@ impl Parser {
             return true;
         }
         if list.head_is("and") {
-            return list.rest().iter().fold(true, |read, item| self.timed_condition(item, into) && read);
+            let unread = list.rest().iter().filter(|item| !self.timed_condition(item, into));
+            return unread.count() == 0;
         }
         if list.head_is("forall") {
             let Some((params, body)) = self.quantifier(list) else { return false };
@@ -134,7 +139,8 @@ impl Parser {
             return true;
         }
         if list.head_is("and") {
-            return list.rest().iter().fold(true, |read, item| self.timed_effect(item, into) && read);
+            let unread = list.rest().iter().filter(|item| !self.timed_effect(item, into));
+            return unread.count() == 0;
         }
         if list.head_is("forall") {
             let Some((params, body)) = self.quantifier(list) else { return false };
@@ -152,7 +158,7 @@ impl Parser {
         }
         let is_assignment = list.head().is_some_and(|head| super::numeric::assign_op(head).is_some());
         if is_assignment {
-            self.unsupported(list.place(), "a continuous effect", "say `(at end (increase …))`");
+            self.unsupported(list.place(), "a continuous effect", "say `(at end (increase ...))`");
             return false;
         }
         let effect = self.timed(list).and_then(|(time, body)| Some((time, self.effect(body)?)));
@@ -177,20 +183,37 @@ impl Parser {
 fn flatten(conditions: Timed<Condition>, effects: Timed<Effect>) -> (Condition, Effect) {
     let achieved = atoms(&effects, Time::Start, true);
     let taken_back = atoms(&effects, Time::End, false);
-    let at_start = conditions.iter().filter(|(time, _)| *time == Time::Start);
-    let later = conditions.iter().filter(|(time, condition)| {
-        *time != Time::Start && !matches!(condition, Condition::Atom(atom) if achieved.contains(atom))
-    });
-    let precondition = at_start.chain(later).map(|(_, condition)| condition.clone()).collect();
-    let in_order = [Time::Start, Time::OverAll, Time::End].into_iter().flat_map(|wanted| {
-        let taken_back = &taken_back;
-        effects.iter().filter(move |(time, effect)| {
-            let undone = matches!(effect, Effect::Add(atom) if taken_back.contains(atom));
-            *time == wanted && !(wanted == Time::Start && undone)
-        })
-    });
-    let effect = in_order.map(|(_, effect)| effect.clone()).collect();
+    let (first, later): (Timed<Condition>, Timed<Condition>) =
+        conditions.into_iter().partition(|(time, _)| *time == Time::Start);
+    let later = later.into_iter().filter_map(|(_, condition)| still_needed(condition, &achieved));
+    let precondition = first.into_iter().map(|(_, condition)| condition).chain(later).collect();
+    let (start, end): (Timed<Effect>, Timed<Effect>) =
+        effects.into_iter().partition(|(time, _)| *time == Time::Start);
+    let start = start.into_iter().filter_map(|(_, effect)| lasting(effect, &taken_back));
+    let effect = start.chain(end.into_iter().map(|(_, effect)| effect)).collect();
     (join(precondition, Condition::And), join(effect, Effect::And))
+}
+
+/// The condition without the atoms that the action has achieved itself.
+fn still_needed(condition: Condition, achieved: &BTreeSet<Atom>) -> Option<Condition> {
+    match condition {
+        Condition::And(parts) => {
+            Some(Condition::And(parts.into_iter().filter_map(|part| still_needed(part, achieved)).collect()))
+        }
+        Condition::Atom(atom) if achieved.contains(&atom) => None,
+        other => Some(other),
+    }
+}
+
+/// The effect without the atoms that the action takes back itself.
+fn lasting(effect: Effect, taken_back: &BTreeSet<Atom>) -> Option<Effect> {
+    match effect {
+        Effect::And(parts) => {
+            Some(Effect::And(parts.into_iter().filter_map(|part| lasting(part, taken_back)).collect()))
+        }
+        Effect::Add(atom) if taken_back.contains(&atom) => None,
+        other => Some(other),
+    }
 }
 
 /// The one, or all of them joined.
@@ -205,16 +228,20 @@ fn join<T>(mut parts: Vec<T>, and: impl Fn(Vec<T>) -> T) -> T {
 }
 
 /// What is added (or deleted) at that time in any case.
-fn atoms(effects: &Timed<Effect>, time: Time, added: bool) -> Vec<Atom> {
-    fn collect(effect: &Effect, added: bool, into: &mut Vec<Atom>) {
+fn atoms(effects: &Timed<Effect>, time: Time, added: bool) -> BTreeSet<Atom> {
+    fn collect(effect: &Effect, added: bool, into: &mut BTreeSet<Atom>) {
         match effect {
             Effect::And(effects) => effects.iter().for_each(|effect| collect(effect, added, into)),
-            Effect::Add(atom) if added => into.push(atom.clone()),
-            Effect::Delete(atom) if !added => into.push(atom.clone()),
+            Effect::Add(atom) if added => {
+                into.insert(atom.clone());
+            }
+            Effect::Delete(atom) if !added => {
+                into.insert(atom.clone());
+            }
             _ => {}
         }
     }
-    let mut found = Vec::new();
+    let mut found = BTreeSet::new();
     effects.iter().filter(|(t, _)| *t == time).for_each(|(_, effect)| collect(effect, added, &mut found));
     found
 }

@@ -16,7 +16,7 @@ impl Parser {
         }
         let Some(head) = list.head() else {
             let help = "`(and (a) (b))` joins effects; `((a) (b))` means nothing";
-            self.expected(list.place(), "`and`, `not`, `when`, … or a predicate", help);
+            self.expected(list.place(), "`and`, `not`, `when`, ... or a predicate", help);
             return None;
         };
         match head.text.to_ascii_lowercase().as_str() {
@@ -57,7 +57,8 @@ impl Parser {
         if let Some(op) = assign_op(head)
             && (has_list || list.rest().last().and_then(Sexpr::as_word).is_some_and(|word| word.is_number()))
         {
-            let [function, value] = self.operands(list, "a function and a number", "`(increase (fuel ?t) 1)`")?;
+            let [function, value] =
+                self.operands(list, "a function and a number", "`(increase (fuel ?t) 1)`")?;
             let (function, value) = (self.function_term(function), self.numeric(value));
             return Some(Effect::Assign(op, function?, value?));
         }

@@ -58,7 +58,7 @@ fn parse<T>(
 ) -> Result<Parsed<T>, Report> {
     let mut report = Report::new(source);
     let top = sexpr::read(source, &mut report);
-    let mut parser = Parser { report, names: HashMap::new() };
+    let mut parser = Parser { report, names: HashMap::new(), typings: 0 };
     let value = top.and_then(|top| read(&mut parser, &top));
     match value {
         Some(value) if !parser.report.has_errors() => Ok(Parsed { value, warnings: parser.report }),
@@ -71,6 +71,8 @@ struct Parser {
     report: Report,
     // Looked up, never iterated.
     names: HashMap<String, Arc<str>>,
+    /// Pairs of a name and one of its types so far.
+    typings: usize,
 }
 
 impl Parser {
@@ -93,7 +95,9 @@ impl Parser {
         match top {
             [] => self.error(codes::SYNTAX, Span::NONE, format!("the text is empty; expected {what}")),
             [only] => return Some(only),
-            [_, second, ..] => self.error(codes::TRAILING, second.place(), "there is more text than one expression"),
+            [_, second, ..] => {
+                self.error(codes::TRAILING, second.place(), "there is more text than one expression")
+            }
         }
         None
     }
@@ -123,7 +127,11 @@ impl Parser {
 
     /// A variable, without its question mark.
     fn variable(&mut self, sexpr: &Sexpr<'_>) -> Option<Name> {
-        let Some((word, text)) = sexpr.as_word().and_then(|word| Some((word, word.text.strip_prefix('?')?))) else {
+        if let Some(word) = sexpr.as_word().filter(|word| !word.text.is_ascii()) {
+            return self.spelling(word, word.text);
+        }
+        let Some((word, text)) = sexpr.as_word().and_then(|word| Some((word, word.text.strip_prefix('?')?)))
+        else {
             self.expected(sexpr.place(), "a variable", "variables begin with `?`, as in `?x`");
             return None;
         };
@@ -152,11 +160,19 @@ impl Parser {
     /// `word` as a name spelt `text`, if it is made of the letters PDDL allows.
     fn spelling(&mut self, word: Word<'_>, text: &str) -> Option<Name> {
         let allowed = |c: char| c.is_ascii_alphanumeric() || "-_.@#$%&*+/<=>!^~|[]{}".contains(c);
-        if let Some((offset, bad)) = text.char_indices().find(|(_, c)| !allowed(*c)) {
+        let bad_character = text.char_indices().find(|(at, c)| !(allowed(*c) || (*at == 0 && *c == '?')));
+        if let Some((offset, bad)) = bad_character {
             let start = word.span.end as usize - text.len() + offset;
             let place = Span::new(start, start + bad.len_utf8());
-            let found = Diagnostic::error(codes::BAD_CHARACTER, place, format!("`{bad}` cannot be part of a name"));
-            self.report.push(found.help("use ASCII letters, digits, `-` and `_`; comments begin with `;`"));
+            let found =
+                Diagnostic::error(codes::BAD_CHARACTER, place, format!("`{bad}` cannot be part of a name"));
+            let help = match bad {
+                '\u{2010}'..='\u{2015}' => {
+                    "write `-` (the key between 0 and =), with a space before and after it in a typed list"
+                }
+                _ => "use ASCII letters, digits, `-` and `_`; comments begin with `;`",
+            };
+            self.report.push(found.help(help));
             return None;
         }
         if text.is_empty() || text == "-" {
@@ -167,21 +183,30 @@ impl Parser {
     }
 
     /// The one `(define …)` at the top level and its header, such as `(domain NAME)`.
-    fn define<'t, 's>(&mut self, top: &'t [Sexpr<'s>], kind: &str, other: &str) -> Option<(Name, &'t [Sexpr<'s>])> {
-        let form = format!("a {kind} file has the form `(define ({kind} NAME) …)`");
+    fn define<'t, 's>(
+        &mut self,
+        top: &'t [Sexpr<'s>],
+        kind: &str,
+        other: &str,
+    ) -> Option<(Name, &'t [Sexpr<'s>])> {
+        let form = format!("a {kind} file has the form `(define ({kind} NAME) ...)`");
         let Some((first, more)) = top.split_first() else {
-            let found = Diagnostic::error(codes::WRONG_FILE, Span::NONE, format!("the text is empty, not a {kind}"));
+            let found =
+                Diagnostic::error(codes::WRONG_FILE, Span::NONE, format!("the text is empty, not a {kind}"));
             self.report.push(found.help(form));
             return None;
         };
         let Some(define) = first.as_list().filter(|list| list.head_is("define")) else {
-            let found = Diagnostic::error(codes::WRONG_FILE, first.place(), format!("this is not a PDDL {kind}"));
+            let found =
+                Diagnostic::error(codes::WRONG_FILE, first.place(), format!("this is not a PDDL {kind}"));
             self.report.push(found.label("expected `(define`").help(form));
             return None;
         };
         if let Some(next) = more.first() {
-            let found = Diagnostic::error(codes::TRAILING, next.place(), "there is more text after the definition");
-            let found = found.label("outside of `(define …)`").also(define.close(), "the definition ends here");
+            let found =
+                Diagnostic::error(codes::TRAILING, next.place(), "there is more text after the definition");
+            let found =
+                found.label("outside of `(define ...)`").also(define.close(), "the definition ends here");
             self.report.push(found.help("remove it, or move the `)` that closes the definition behind it"));
         }
         let header = define.items.get(1).and_then(Sexpr::as_list);
@@ -201,7 +226,7 @@ impl Parser {
     fn section<'t, 's>(&mut self, sexpr: &'t Sexpr<'s>) -> Option<(Word<'s>, &'t List<'s>)> {
         let section = sexpr.as_list().and_then(|list| Some((list.head()?, list)));
         if section.is_none_or(|(head, _)| !head.is_keyword()) {
-            self.expected(sexpr.place(), "a section", "sections have the form `(:keyword …)`");
+            self.expected(sexpr.place(), "a section", "sections have the form `(:keyword ...)`");
             return None;
         }
         section

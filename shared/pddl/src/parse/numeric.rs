@@ -42,7 +42,8 @@ impl Parser {
     pub(super) fn decimal(&mut self, word: Word<'_>) -> Option<Decimal> {
         let finite = word.is_number() && word.text.parse::<f64>().is_ok_and(f64::is_finite);
         if !finite {
-            let found = Diagnostic::error(codes::BAD_NUMBER, word.span, format!("`{}` is not a number", word.text));
+            let found =
+                Diagnostic::error(codes::BAD_NUMBER, word.span, format!("`{}` is not a number", word.text));
             self.report.push(found.help("a finite number such as `3`, `0.5` or `-2`"));
             return None;
         }

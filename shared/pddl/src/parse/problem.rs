@@ -61,15 +61,17 @@ impl Parser {
     fn missing_sections(&mut self, problem: &Problem, seen: &HashMap<&'static str, Span>) {
         let place = problem.name.span();
         if !seen.contains_key(":goal") {
-            let found = Diagnostic::error(codes::MISSING_SECTION, place, "the problem has no `(:goal …)`");
+            let found = Diagnostic::error(codes::MISSING_SECTION, place, "the problem has no `(:goal ...)`");
             self.report.push(found.help("say what shall hold at the end: `(:goal (and (open Fridge_1)))`"));
         }
         if !seen.contains_key(":domain") {
-            let found = Diagnostic::error(codes::MISSING_SECTION, place, "the problem has no `(:domain NAME)`");
+            let found =
+                Diagnostic::error(codes::MISSING_SECTION, place, "the problem has no `(:domain NAME)`");
             self.report.push(found.help("name the domain directly behind `(problem NAME)`"));
         }
         if !seen.contains_key(":init") {
-            let found = Diagnostic::warning(codes::MISSING_SECTION, place, "the problem has no `(:init …)`");
+            let found =
+                Diagnostic::warning(codes::MISSING_SECTION, place, "the problem has no `(:init ...)`");
             self.report.push(found.label("everything is false at the start"));
         }
     }
@@ -84,7 +86,8 @@ impl Parser {
             return self.initial_value(list);
         }
         if list.head_is("not") {
-            let found = Diagnostic::warning(codes::NEGATIVE_INIT, list.place(), "`not` in `:init` says nothing");
+            let found =
+                Diagnostic::warning(codes::NEGATIVE_INIT, list.place(), "`not` in `:init` says nothing");
             self.report.push(found.help("leave it out: what is not named is false"));
             return None;
         }
@@ -96,9 +99,10 @@ impl Parser {
             self.unsupported(list.place(), "a timed initial literal", help);
             return None;
         }
-        if let Some(word) = ["and", "or", "oneof", "unknown", "forall"].iter().find(|word| {
-            list.head_is(word) && list.rest().iter().any(|item| item.as_list().is_some())
-        }) {
+        if let Some(word) = ["and", "or", "oneof", "unknown", "forall"]
+            .iter()
+            .find(|word| list.head_is(word) && list.rest().iter().any(|item| item.as_list().is_some()))
+        {
             let help = "`:init` is a plain list of facts: `(:init (a) (b))`";
             self.expected(list.place(), &format!("a fact, not `{word}`"), help);
             return None;

@@ -1,11 +1,16 @@
 //! Typed lists, `a b - t c`, and the signatures made of them.
 
+use std::collections::HashSet;
+
 use super::Parser;
 use crate::ast::{Private, Signature, TypedName};
 use crate::codes;
 use crate::diagnostic::Diagnostic;
-use crate::name::Name;
-use crate::sexpr::{List, Sexpr};
+use crate::name::{Name, Span};
+use crate::sexpr::{List, MAX_TOKENS, Sexpr};
+
+/// Variables one list may bind.
+const MAX_VARIABLES: usize = 256;
 
 /// What a typed list declares.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -21,6 +26,24 @@ pub(super) enum Declares {
 impl Parser {
     /// A typed list. Names that are not followed by a type have none.
     pub(super) fn typed_list(&mut self, items: &[Sexpr<'_>], declares: Declares) -> Vec<TypedName> {
+        let objects = if declares == Declares::Objects { certain_objects(items) } else { HashSet::new() };
+        let list = self.typed_items(items, declares, &objects);
+        if let Some(over) = list.get(MAX_VARIABLES).filter(|_| declares == Declares::Variables) {
+            self.error(
+                codes::TOO_LARGE,
+                over.name.span(),
+                format!("more than {MAX_VARIABLES} variables in one list"),
+            );
+        }
+        list
+    }
+
+    fn typed_items(
+        &mut self,
+        items: &[Sexpr<'_>],
+        declares: Declares,
+        objects: &HashSet<String>,
+    ) -> Vec<TypedName> {
         let mut list: Vec<TypedName> = Vec::new();
         let mut untyped_from = 0;
         let mut at = 0;
@@ -38,15 +61,17 @@ impl Parser {
                     at += 1;
                     if untyped_from == list.len() {
                         // Generated files have it where there are no objects of a type.
-                        let found = Diagnostic::warning(codes::SYNTAX, dash.span, "a type without a name before it");
+                        let found =
+                            Diagnostic::warning(codes::SYNTAX, dash.span, "a type without a name before it");
                         self.report.push(found.help("remove it, or write `name - type`"));
                     }
-                    let types = types.unwrap_or_default();
+                    let types =
+                        self.affordable(types.unwrap_or_default(), list.len() - untyped_from, dash.span);
                     list[untyped_from..].iter_mut().for_each(|name| name.types = types.clone());
                     untyped_from = list.len();
                 }
                 Sexpr::List(private) if declares == Declares::Objects && private.head_is(":private") => {
-                    self.private_objects(private, items, &mut list);
+                    self.private_objects(private, objects, &mut list);
                     untyped_from = list.len();
                 }
                 _ => {
@@ -60,6 +85,16 @@ impl Parser {
             }
         }
         list
+    }
+
+    /// Each name has its own copy of its types, so that long `either`s behind many names multiply.
+    fn affordable(&mut self, types: Vec<Name>, names: usize, span: Span) -> Vec<Name> {
+        self.typings = self.typings.saturating_add(types.len().saturating_mul(names));
+        if self.typings > MAX_TOKENS {
+            self.error(codes::TOO_LARGE, span, "too many names with too many types each");
+            return Vec::new();
+        }
+        types
     }
 
     fn object(&mut self, item: &Sexpr<'_>) -> Option<Name> {
@@ -87,23 +122,25 @@ impl Parser {
     }
 
     /// `(:private …)` among objects. Whether its first word names the agent or is itself the first private
-    /// object is not marked: an agent's name also stands in the list as an object, so it occurs twice.
-    fn private_objects(&mut self, private: &List<'_>, section: &[Sexpr<'_>], list: &mut Vec<TypedName>) {
+    /// object is not marked. But an agent is an object too, so its name also stands where objects do.
+    fn private_objects(&mut self, private: &List<'_>, objects: &HashSet<String>, list: &mut Vec<TypedName>) {
         let mut items = private.rest();
         let mut owner = Private::Owner;
         if let [Sexpr::Word(first), second, ..] = items
             && second.as_word().is_some_and(|word| word.text != "-")
-            && occurrences(section, first.text) > 1
+            && objects.contains(&first.text.to_ascii_lowercase())
             && let Some(agent) = self.name(&items[0], "an agent")
         {
             owner = Private::Agent(agent);
             items = &items[1..];
         }
-        if let Some(nested) = items.iter().find(|item| item.as_list().is_some_and(|list| list.head_is(":private"))) {
+        if let Some(nested) =
+            items.iter().find(|item| item.as_list().is_some_and(|list| list.head_is(":private")))
+        {
             self.expected(nested.place(), "no `(:private` inside another", "write them one after the other");
             return;
         }
-        let inside = self.typed_list(items, Declares::Objects);
+        let inside = self.typed_items(items, Declares::Objects, objects);
         list.extend(inside.into_iter().map(|name| TypedName { private_to: Some(owner.clone()), ..name }));
     }
 
@@ -122,7 +159,9 @@ impl Parser {
                     }
                     at += 1;
                 }
-                Sexpr::List(list) if list.head_is(":private") => self.private_signatures(list, functions, &mut signatures),
+                Sexpr::List(list) if list.head_is(":private") => {
+                    self.private_signatures(list, functions, &mut signatures)
+                }
                 Sexpr::List(list) if !list.items.is_empty() => signatures.extend(self.signature(list)),
                 _ => {
                     self.expected(item.place(), "a declaration in parentheses", "`(name ?parameter - type)`");
@@ -144,7 +183,10 @@ impl Parser {
     }
 
     fn private_signatures(&mut self, private: &List<'_>, functions: bool, signatures: &mut Vec<Signature>) {
-        let declared = private.rest().iter().take_while(|item| item.as_word().is_some()).count();
+        let is_type =
+            |at: usize| at > 0 && private.rest()[at - 1].as_word().is_some_and(|word| word.text == "-");
+        let items = private.rest().iter().enumerate();
+        let declared = items.take_while(|(at, item)| item.as_word().is_some() || is_type(*at)).count();
         let (agent, inside) = private.rest().split_at(declared);
         let mut owner = Private::Owner;
         if let Some(agent_name) = agent.first() {
@@ -157,18 +199,32 @@ impl Parser {
                 self.name(agent_name, "an agent").map_or(Private::Owner, Private::Agent)
             };
         }
-        if let Some(nested) = inside.iter().find(|item| item.as_list().is_some_and(|list| list.head_is(":private"))) {
+        if let Some(nested) =
+            inside.iter().find(|item| item.as_list().is_some_and(|list| list.head_is(":private")))
+        {
             self.expected(nested.place(), "no `(:private` inside another", "write them one after the other");
             return;
         }
         let inside = self.signatures(inside, functions);
+        if let Private::Variable(variable) = &owner {
+            self.affordable(variable.types.clone(), inside.len(), private.place());
+        }
         signatures.extend(inside.into_iter().map(|s| Signature { private_to: Some(owner.clone()), ..s }));
     }
 }
 
-/// How often a word stands in a list or in the lists directly inside it.
-fn occurrences(items: &[Sexpr<'_>], text: &str) -> usize {
-    let is_it = |item: &Sexpr<'_>| item.as_word().is_some_and(|word| word.is(text));
-    let inside = |item: &Sexpr<'_>| item.as_list().map_or(0, |list| list.items.iter().filter(|i| is_it(i)).count());
-    items.iter().map(|item| usize::from(is_it(item)) + inside(item)).sum()
+/// The words, in lower case, that are certainly objects: those outside of `(:private …)`, and inside all but
+/// the first, which may name the agent. Nothing if there is no `(:private …)`.
+fn certain_objects(items: &[Sexpr<'_>]) -> HashSet<String> {
+    let mut objects = HashSet::new();
+    let is_private = |item: &Sexpr<'_>| item.as_list().is_some_and(|list| list.head_is(":private"));
+    if items.iter().any(is_private) {
+        let inside = items.iter().filter_map(Sexpr::as_list).flat_map(|list| {
+            let is_object = list.items.get(2).and_then(Sexpr::as_word).is_none_or(|word| word.text == "-");
+            list.items.get(if is_object { 1 } else { 2 }..).unwrap_or_default()
+        });
+        let words = items.iter().chain(inside).filter_map(Sexpr::as_word);
+        objects.extend(words.map(|word| word.text.to_ascii_lowercase()));
+    }
+    objects
 }

@@ -1,0 +1,5 @@
+(define (problem breakfast) (:domain kitchen)
+  (:objects r1 r2 - robot c1 - cup f1 - fridge (:private r1 c2 - cup) loose)
+  (:init (at r1 sink) (= (fuel r1) 12.5) (= (total-cost) 0) (open f1))
+  (:goal (and (forall (?f - fridge) (not (open ?f))) (exists (?r - robot) (holding ?r c1))))
+  (:metric minimize (+ (total-cost) (* 0.5 (total-time)))))

@@ -1,0 +1,10 @@
+(define (domain team)
+  (:requirements :typing :multi-agent :unfactored-privacy)
+  (:types truck parcel place)
+  (:predicates
+    (at ?x - (either truck parcel) ?p - place)
+    (:private ?agent - truck (fuelled ?agent - truck) (in ?x - parcel ?agent - truck)))
+  (:functions ( total-cost ) - number)
+  (:action drive :agent ?t - truck :parameters (?a ?b - place) :precondition (and (at ?t ?a) (fuelled ?t))
+    :effect (and (not (at ?t ?a)) (at ?t ?b) (increase ( total-cost ) 3)))
+  (:action refuel :agent ?t - truck :parameters () :precondition () :effect (fuelled ?t)))
