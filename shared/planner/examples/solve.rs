@@ -1,4 +1,4 @@
-//! Times grounding and search of one task: `solve DOMAIN PROBLEM [SECONDS]`.
+//! Times grounding and search of one task: `solve DOMAIN PROBLEM [SECONDS [ENGINE]]`.
 
 use std::error::Error;
 use std::sync::atomic::AtomicBool;
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use lamma_pddl::{Source, parse_domain, parse_problem};
 use lamma_planner::search::{Statistics, solve_with_statistics};
-use lamma_planner::{GroundLimits, Limits, Outcome, SearchOptions, ground};
+use lamma_planner::{Engine, GroundLimits, Limits, Outcome, SearchOptions, ground};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let args: Vec<String> = std::env::args().collect();
@@ -26,8 +26,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         expansions: None,
     };
     let mut statistics = Statistics::default();
+    let engine =
+        rest.get(1).map_or(Some(Engine::Portfolio), |name| Engine::named(name)).ok_or("unknown engine")?;
+    let options = SearchOptions { engine, ..SearchOptions::default() };
     let cancel = AtomicBool::new(false);
-    let outcome = solve_with_statistics(&task, &SearchOptions::default(), &limits, &cancel, &mut statistics);
+    let outcome = solve_with_statistics(&task, &options, &limits, &cancel, &mut statistics);
     let total = start.elapsed();
     let ms = |d: Duration| format!("{:.2}", d.as_secs_f64() * 1e3);
     match &outcome {

@@ -16,6 +16,12 @@ pub struct FactId(pub u32);
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct OperatorId(pub u32);
 
+impl From<FactId> for u64 {
+    fn from(fact: FactId) -> u64 {
+        u64::from(fact.0)
+    }
+}
+
 impl FactId {
     /// As an index.
     #[inline]

@@ -8,7 +8,9 @@ use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::Name;
 use lamma_pddl::ast::*;
-use lamma_planner::{GroundLimits, Limits, Outcome, SearchOptions, Unsolvable, ground, hmax_unit, solve};
+use lamma_planner::{
+    Engine, GroundLimits, Limits, Outcome, SearchOptions, Unsolvable, ground, hmax_unit, solve,
+};
 use support::{Executor, World};
 
 /// SplitMix64.
@@ -274,6 +276,14 @@ fn plans_exist_exactly_where_exhaustive_search_finds_them() {
                     hmax_unit(&task).is_some_and(|h| h as usize <= length),
                     "seed {seed}: h_max overestimates"
                 );
+                let options = SearchOptions { engine: Engine::AstarLmcut, ..SearchOptions::default() };
+                match solve(&task, &options, &Limits::default(), &AtomicBool::new(false)) {
+                    Outcome::Found(plan) => {
+                        assert!(executor.check(&plan).is_ok(), "seed {seed}: {plan:?}");
+                        assert_eq!(plan.acts.len(), length, "seed {seed}: A* with LM-cut is not optimal");
+                    }
+                    other => panic!("seed {seed}: A* with LM-cut says {other:?}"),
+                }
                 solvable += usize::from(length > 0);
             }
             (Outcome::Unsolvable(why), None) => {

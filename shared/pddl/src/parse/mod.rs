@@ -160,7 +160,7 @@ impl Parser {
     /// `word` as a name spelt `text`, if it is made of the letters PDDL allows.
     fn spelling(&mut self, word: Word<'_>, text: &str) -> Option<Name> {
         let allowed = |c: char| c.is_ascii_alphanumeric() || "-_.@#$%&*+/<=>!^~|[]{}".contains(c);
-        let bad_character = text.char_indices().find(|(at, c)| !allowed(*c) && !(*at == 0 && *c == '?'));
+        let bad_character = text.char_indices().find(|(at, c)| !(allowed(*c) || (*at == 0 && *c == '?')));
         if let Some((offset, bad)) = bad_character {
             let start = word.span.end as usize - text.len() + offset;
             let place = Span::new(start, start + bad.len_utf8());

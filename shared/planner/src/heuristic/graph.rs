@@ -1,10 +1,14 @@
 //! The task without deletes as an and/or graph, shared by everything that reasons on it.
 
 use crate::csr::Csr;
+use crate::id_table::{IdTable, Slot, hash_words};
 use crate::task::{FactId, OperatorId, Task};
 
 /// The mark of "no node" and "no operator".
 pub(crate) const NO_NODE: u32 = u32::MAX;
+
+/// All subsets of so many conditions are looked up to find superfluous nodes.
+const MAX_SUBSETS_OF: usize = 5;
 
 /// A node is an operator, a conditional effect of one, or an axiom: when all its conditions are reached, so
 /// are its effects. Effects that no condition and no goal asks for are left out.
@@ -24,7 +28,18 @@ pub(crate) struct Graph {
 }
 
 impl Graph {
+    /// The graph without conditional effects that are superfluous for reachability.
     pub fn new(task: &Task) -> Self {
+        Self::build(task, true)
+    }
+
+    /// The graph with everything: an operator already paid for may give an effect that another, cheaper one
+    /// gives too, so leaving it out would not keep the cost of relaxed plans.
+    pub fn complete(task: &Task) -> Self {
+        Self::build(task, false)
+    }
+
+    fn build(task: &Task, prune: bool) -> Self {
         let mut wanted = vec![false; task.facts.len()];
         let asked = task.preconditions.items().iter().chain(task.effect_conditions.items());
         for fact in asked.chain(task.axiom_bodies.items()).chain(&task.goal) {
@@ -34,13 +49,11 @@ impl Graph {
         for index in 0..task.operators.len() {
             let operator = OperatorId(index as u32);
             let precondition = task.preconditions(operator);
-            nodes.add(precondition, &[], task.effects(operator), index as u32);
-            for (condition, fact) in task.conditional_effects(operator) {
-                nodes.add(precondition, condition, &[fact], index as u32);
-            }
+            nodes.add(precondition, task.effects(operator), index as u32);
         }
+        nodes.add_conditional(&conditional_nodes(task), prune);
         for axiom in &task.axioms {
-            nodes.add(task.axiom_bodies.row(axiom.body as usize), &[], &[axiom.head], NO_NODE);
+            nodes.add(task.axiom_bodies.row(axiom.body as usize), &[axiom.head], NO_NODE);
         }
         let Nodes { conditions, effects, operator_of, .. } = nodes;
         let count = operator_of.len();
@@ -66,6 +79,78 @@ impl Graph {
     }
 }
 
+/// One conditional effect as a node.
+struct Single {
+    /// The effect, then the conditions in order.
+    row: Vec<FactId>,
+    operator: u32,
+    cost: u32,
+}
+
+fn conditional_nodes(task: &Task) -> Vec<Single> {
+    let mut singles = Vec::new();
+    for index in 0..task.operators.len() {
+        let operator = OperatorId(index as u32);
+        for (condition, fact) in task.conditional_effects(operator) {
+            let mut row = vec![fact];
+            row.extend(task.preconditions(operator).iter().chain(condition));
+            row[1..].sort_unstable();
+            row.dedup();
+            singles.push(Single { row, operator: index as u32, cost: task.operators[index].units });
+        }
+    }
+    singles
+}
+
+/// Rows of facts with the least cost of a node of that row.
+struct Rows<'a> {
+    singles: &'a [Single],
+    table: IdTable,
+}
+
+impl<'a> Rows<'a> {
+    /// Keeps of equal rows the cheapest, of equally cheap ones the first.
+    fn new(singles: &'a [Single]) -> Self {
+        let mut order: Vec<u32> = (0..singles.len() as u32).collect();
+        order.sort_by_key(|&at| singles[at as usize].cost);
+        let mut rows = Rows { singles, table: IdTable::default() };
+        for id in order {
+            let row = &singles[id as usize].row;
+            let hash = hash_words(row);
+            if let Slot::Free(at) = rows.table.find(hash, |other| singles[other as usize].row == *row) {
+                rows.table.insert(at, hash, id, |other| hash_words(&singles[other as usize].row));
+            }
+        }
+        rows
+    }
+
+    fn find(&self, row: &[FactId]) -> Option<u32> {
+        match self.table.find(hash_words(row), |id| self.singles[id as usize].row == row) {
+            Slot::Found(id) => Some(id),
+            Slot::Free(_) => None,
+        }
+    }
+
+    /// Whether another node gives the same effect under fewer conditions, or the same ones, at no more cost.
+    fn dominated(&self, at: u32) -> bool {
+        let single = &self.singles[at as usize];
+        if self.find(&single.row) != Some(at) {
+            return true;
+        }
+        let conditions = single.row.len() - 1;
+        if conditions > MAX_SUBSETS_OF {
+            return false;
+        }
+        let mut subset = Vec::with_capacity(conditions + 1);
+        (0..(1u32 << conditions) - 1).any(|mask| {
+            subset.clear();
+            subset.push(single.row[0]);
+            subset.extend((0..conditions).filter(|bit| mask >> bit & 1 == 1).map(|bit| single.row[bit + 1]));
+            self.find(&subset).is_some_and(|id| self.singles[id as usize].cost <= single.cost)
+        })
+    }
+}
+
 /// The nodes while they are collected.
 #[derive(Default)]
 struct Nodes<'a> {
@@ -73,24 +158,28 @@ struct Nodes<'a> {
     conditions: Csr<FactId>,
     effects: Csr<FactId>,
     operator_of: Vec<u32>,
-    buffer: Vec<FactId>,
 }
 
 impl Nodes<'_> {
-    fn add(&mut self, conditions: &[FactId], more: &[FactId], effects: &[FactId], operator: u32) {
+    /// Adds the nodes, with `prune` without those that others make superfluous: "what the robot holds comes along" is an effect of
+    /// going anywhere, and for the relaxed task of going to one place.
+    fn add_conditional(&mut self, singles: &[Single], prune: bool) {
+        let rows = Rows::new(if prune { singles } else { &[] });
+        for (at, single) in singles.iter().enumerate() {
+            if self.wanted[single.row[0].index()] && !(prune && rows.dominated(at as u32)) {
+                self.add(&single.row[1..], &single.row[..1], single.operator);
+            }
+        }
+    }
+
+    fn add(&mut self, conditions: &[FactId], effects: &[FactId], operator: u32) {
         // Effects that no condition and no goal asks for are not followed.
         if !effects.iter().any(|fact| self.wanted[fact.index()]) {
             return;
         }
         let wanted = self.wanted;
         self.effects.push_row(effects.iter().copied().filter(|fact| wanted[fact.index()]));
-        self.buffer.clear();
-        self.buffer.extend(conditions.iter().chain(more));
-        if !more.is_empty() {
-            self.buffer.sort_unstable();
-            self.buffer.dedup();
-        }
-        self.conditions.push_row(self.buffer.iter().copied());
+        self.conditions.push_row(conditions.iter().copied());
         self.operator_of.push(operator);
     }
 }

@@ -1,11 +1,14 @@
 //! Heuristics and what they promise.
 
+mod bucket_queue;
 mod graph;
 mod landmark;
+mod lmcut;
 mod relaxation;
 
 pub(crate) use graph::Graph;
 pub(crate) use landmark::{LandmarkGraph, Status};
+pub use lmcut::LandmarkCut;
 pub use relaxation::{Costs, Relaxation};
 
 use crate::task::OperatorId;
@@ -36,4 +39,18 @@ pub trait Heuristic {
     fn properties(&self) -> Properties;
     /// The estimate for a packed state. Operators that look promising are added to `preferred`.
     fn estimate(&mut self, state: &[u64], preferred: &mut Vec<OperatorId>) -> Estimate;
+}
+
+/// Zero everywhere: A* with it is uniform-cost search.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Blind;
+
+impl Heuristic for Blind {
+    fn properties(&self) -> Properties {
+        Properties { admissible: true, consistent: true, safe: true }
+    }
+
+    fn estimate(&mut self, _state: &[u64], _preferred: &mut Vec<OperatorId>) -> Estimate {
+        Estimate::Cost(0)
+    }
 }

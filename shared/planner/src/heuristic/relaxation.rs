@@ -4,6 +4,7 @@
 
 use std::rc::Rc;
 
+use super::bucket_queue::BucketQueue;
 use super::graph::{Graph, NO_NODE};
 use super::{Estimate, Heuristic, Properties};
 use crate::task::{FactId, OperatorId, Task};
@@ -33,18 +34,43 @@ impl Costs {
     }
 }
 
+/// What is known of a fact.
+#[derive(Clone, Copy, Debug, Default)]
+struct Label {
+    cost: u32,
+    supporter: u32,
+    done: bool,
+}
+
+/// What is known of a node.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    /// Conditions not reached yet.
+    missing: u32,
+    cost: u32,
+    base: u32,
+}
+
+#[inline]
+fn reach(labels: &mut [Label], queue: &mut BucketQueue, fact: FactId, cost: u32, supporter: u32) {
+    let label = &mut labels[fact.index()];
+    if cost < label.cost {
+        *label = Label { cost, supporter, done: false };
+        queue.push(cost, fact);
+    }
+}
+
 /// The delete relaxation of a task, with the work space to evaluate states on it.
 #[derive(Debug)]
 pub struct Relaxation<'a> {
     task: &'a Task,
     graph: Rc<Graph>,
-    base_cost: Vec<u32>,
+    /// The nodes before anything is reached.
+    fresh: Vec<Node>,
     is_goal: Vec<bool>,
     // The rest is work space, valid for the state evaluated last.
-    fact_cost: Vec<u32>,
-    supporter: Vec<u32>,
-    node_cost: Vec<u32>,
-    missing: Vec<u32>,
+    labels: Vec<Label>,
+    nodes: Vec<Node>,
     queue: BucketQueue,
     marked_facts: Stamps,
     marked_nodes: Stamps,
@@ -52,6 +78,8 @@ pub struct Relaxation<'a> {
     agenda: Vec<FactId>,
     /// The operators of the last relaxed plan.
     relaxed_plan: Vec<OperatorId>,
+    /// What it makes true and needs.
+    relaxed_facts: Vec<FactId>,
 }
 
 impl<'a> Relaxation<'a> {
@@ -67,83 +95,69 @@ impl<'a> Relaxation<'a> {
         let count = graph.operator_of.len();
         let mut is_goal = vec![false; task.facts.len()];
         task.goal.iter().for_each(|fact| is_goal[fact.index()] = true);
+        let nodes = graph.operator_of.iter().map(cost).zip(&graph.condition_count);
+        let fresh: Vec<Node> = nodes.map(|(base, &missing)| Node { missing, cost: base, base }).collect();
         Relaxation {
             task,
-            base_cost: graph.operator_of.iter().map(cost).collect(),
-            fact_cost: vec![UNREACHED; task.facts.len()],
-            supporter: vec![NO_NODE; task.facts.len()],
-            node_cost: vec![0; count],
-            missing: vec![0; count],
+            nodes: fresh.clone(),
+            fresh,
+            labels: vec![Label::default(); task.facts.len()],
             queue: BucketQueue::default(),
             marked_facts: Stamps::new(task.facts.len()),
             marked_nodes: Stamps::new(count),
             marked_operators: Stamps::new(task.operators.len()),
             agenda: Vec::new(),
             relaxed_plan: Vec::new(),
+            relaxed_facts: Vec::new(),
             graph,
             is_goal,
         }
     }
 
-    /// Works out the costs of facts, until all of `goals` are final or everything is reached. `MAX`: a node
-    /// costs as much as its dearest condition; else as all of them together.
+    /// Works out the costs of facts, until all goals are final or (`exhaustive`) everything is reached.
+    /// `MAX`: a node costs as much as its dearest condition; else as all of them together.
     fn propagate<const MAX: bool>(&mut self, state: &[u64], exhaustive: bool) {
-        self.fact_cost.fill(UNREACHED);
-        self.node_cost.copy_from_slice(&self.base_cost);
-        self.missing.copy_from_slice(&self.graph.condition_count);
-        self.queue.clear();
-        let task = self.task;
-        for fact in task.facts_of(state) {
-            self.reach(fact, 0, NO_NODE);
+        // Plain locals: this loop is where searches spend their time.
+        let Self { task, graph, fresh, nodes, labels, queue, is_goal, .. } = self;
+        let graph = &**graph;
+        labels.fill(Label { cost: UNREACHED, supporter: NO_NODE, done: false });
+        nodes.copy_from_slice(fresh);
+        queue.clear();
+        let labels = &mut labels[..];
+        let nodes = &mut nodes[..];
+        for fact in task.facts_of(state).chain(graph.free_facts.iter().copied()) {
+            reach(labels, queue, fact, 0, NO_NODE);
         }
-        for at in 0..self.graph.free_facts.len() {
-            self.reach(self.graph.free_facts[at], 0, NO_NODE);
-        }
-        for at in 0..self.graph.free_nodes.len() {
-            self.fire(self.graph.free_nodes[at]);
+        for &node in &graph.free_nodes {
+            let cost = nodes[node as usize].cost;
+            graph.effects.row(node as usize).iter().for_each(|&fact| reach(labels, queue, fact, cost, node));
         }
         let mut goals = task.goal.len();
-        while let Some((cost, fact)) = self.queue.pop() {
-            if self.fact_cost[fact.index()] != cost {
+        while let Some((cost, fact)) = queue.pop() {
+            if labels[fact.index()].cost != cost || std::mem::replace(&mut labels[fact.index()].done, true) {
                 continue;
             }
-            if self.is_goal[fact.index()] {
+            if is_goal[fact.index()] {
                 goals -= 1;
                 if goals == 0 && !exhaustive {
                     return;
                 }
             }
-            for at in self.graph.waiting.range(fact.index()) {
-                let node = self.graph.waiting.items()[at] as usize;
-                self.missing[node] -= 1;
-                let total = &mut self.node_cost[node];
-                if MAX {
-                    *total = (*total).max(self.base_cost[node] + cost);
+            for &id in graph.waiting.row(fact.index()) {
+                let node = &mut nodes[id as usize];
+                node.missing -= 1;
+                node.cost = if MAX {
+                    node.cost.max(node.base + cost)
                 } else {
-                    *total = total.saturating_add(cost).min(UNREACHED - 1);
-                }
-                if self.missing[node] == 0 {
-                    self.fire(node as u32);
+                    node.cost.saturating_add(cost).min(UNREACHED - 1)
+                };
+                if node.missing == 0 {
+                    let cost = node.cost;
+                    for &effect in graph.effects.row(id as usize) {
+                        reach(labels, queue, effect, cost, id);
+                    }
                 }
             }
-        }
-    }
-
-    #[inline]
-    fn fire(&mut self, node: u32) {
-        let cost = self.node_cost[node as usize];
-        for at in self.graph.effects.range(node as usize) {
-            self.reach(self.graph.effects.items()[at], cost, node);
-        }
-    }
-
-    #[inline]
-    fn reach(&mut self, fact: FactId, cost: u32, supporter: u32) {
-        let known = &mut self.fact_cost[fact.index()];
-        if cost < *known {
-            *known = cost;
-            self.supporter[fact.index()] = supporter;
-            self.queue.push(cost, fact);
         }
     }
 
@@ -155,7 +169,7 @@ impl<'a> Relaxation<'a> {
     /// h_max of a state with this graph's costs; `None` if the goal is out of reach.
     pub fn hmax(&mut self, state: &[u64]) -> Option<u32> {
         self.propagate::<true>(state, false);
-        let dearest = self.task.goal.iter().map(|fact| self.fact_cost[fact.index()]).max().unwrap_or(0);
+        let dearest = self.task.goal.iter().map(|fact| self.labels[fact.index()].cost).max().unwrap_or(0);
         (dearest != UNREACHED).then_some(dearest)
     }
 
@@ -163,7 +177,7 @@ impl<'a> Relaxation<'a> {
     pub fn unreachable_goals(&mut self, state: &[u64]) -> Vec<FactId> {
         self.propagate::<true>(state, true);
         let goal = self.task.goal.iter();
-        goal.copied().filter(|fact| self.fact_cost[fact.index()] == UNREACHED).collect()
+        goal.copied().filter(|fact| self.labels[fact.index()].cost == UNREACHED).collect()
     }
 
     /// The operators of the relaxed plan of the state evaluated last.
@@ -171,11 +185,17 @@ impl<'a> Relaxation<'a> {
         &self.relaxed_plan
     }
 
+    /// The facts that the relaxed plan of the state evaluated last makes true and needs.
+    pub(crate) fn relaxed_facts(&self) -> &[FactId] {
+        &self.relaxed_facts
+    }
+
     /// h_FF of a state; the relaxed plan is then at [`Relaxation::relaxed_plan`].
     pub fn hff(&mut self, state: &[u64], preferred: &mut Vec<OperatorId>) -> Option<u32> {
         self.propagate::<false>(state, false);
         self.relaxed_plan.clear();
-        if self.task.goal.iter().any(|fact| self.fact_cost[fact.index()] == UNREACHED) {
+        self.relaxed_facts.clear();
+        if self.task.goal.iter().any(|fact| self.labels[fact.index()].cost == UNREACHED) {
             return None;
         }
         self.marked_facts.clear();
@@ -185,11 +205,12 @@ impl<'a> Relaxation<'a> {
         self.agenda.clear();
         self.agenda.extend_from_slice(&self.task.goal);
         while let Some(fact) = self.agenda.pop() {
-            let node = self.supporter[fact.index()];
-            if !self.marked_facts.mark(fact.index())
-                || node == NO_NODE
-                || !self.marked_nodes.mark(node as usize)
-            {
+            let node = self.labels[fact.index()].supporter;
+            if !self.marked_facts.mark(fact.index()) || node == NO_NODE {
+                continue;
+            }
+            self.relaxed_facts.push(fact);
+            if !self.marked_nodes.mark(node as usize) {
                 continue;
             }
             self.agenda.extend_from_slice(self.graph.conditions.row(node as usize));
@@ -197,7 +218,7 @@ impl<'a> Relaxation<'a> {
             if operator == NO_NODE || !self.marked_operators.mark(operator as usize) {
                 continue;
             }
-            total = total.saturating_add(self.base_cost[node as usize]);
+            total = total.saturating_add(self.fresh[node as usize].base);
             let operator = OperatorId(operator);
             self.relaxed_plan.push(operator);
             if self.task.applicable(state, operator) {
@@ -215,52 +236,6 @@ impl Heuristic for Relaxation<'_> {
 
     fn estimate(&mut self, state: &[u64], preferred: &mut Vec<OperatorId>) -> Estimate {
         self.hff(state, preferred).map_or(Estimate::DeadEnd, Estimate::Cost)
-    }
-}
-
-/// Facts by cost: a bucket for each small cost, a heap for the rest.
-#[derive(Debug, Default)]
-struct BucketQueue {
-    buckets: Vec<Vec<FactId>>,
-    at: usize,
-    highest: usize,
-    dear: std::collections::BinaryHeap<std::cmp::Reverse<(u32, FactId)>>,
-}
-
-impl BucketQueue {
-    const BUCKETS: usize = 1 << 14;
-
-    fn clear(&mut self) {
-        for bucket in self.buckets.iter_mut().take(self.highest + 1) {
-            bucket.clear();
-        }
-        self.dear.clear();
-        self.at = 0;
-        self.highest = 0;
-    }
-
-    #[inline]
-    fn push(&mut self, cost: u32, fact: FactId) {
-        let at = cost as usize;
-        if at >= Self::BUCKETS {
-            return self.dear.push(std::cmp::Reverse((cost, fact)));
-        }
-        if at >= self.buckets.len() {
-            self.buckets.resize_with(at + 1, Vec::new);
-        }
-        self.highest = self.highest.max(at);
-        self.buckets[at].push(fact);
-    }
-
-    #[inline]
-    fn pop(&mut self) -> Option<(u32, FactId)> {
-        while self.at < self.buckets.len() && self.at <= self.highest {
-            if let Some(fact) = self.buckets[self.at].pop() {
-                return Some((self.at as u32, fact));
-            }
-            self.at += 1;
-        }
-        self.dear.pop().map(|std::cmp::Reverse(entry)| entry)
     }
 }
 

@@ -3,41 +3,16 @@
 //! preferred operators favoured after progress (Richter & Helmert 2009, "Preferred operators and deferred
 //! evaluation in satisficing planning"; Richter & Westphal 2010, section 5).
 
-use super::limits::{GaveUp, Meter};
+use super::limits::Meter;
 use super::open_list::OpenList;
 use super::registry::{Registry, StateId};
-use crate::heuristic::{Estimate, Heuristic, LandmarkGraph, Status};
+use super::{Progress, Slice};
+use crate::heuristic::{LandmarkGraph, Relaxation, Status};
 use crate::successor::Successors;
 use crate::task::{OperatorId, Task};
 
 /// How many more choices the preferred queues get after progress.
 const BOOST: i64 = 1000;
-
-/// A search's result: a plan, or a proof that there is none.
-pub(crate) type Found = Result<Option<Vec<OperatorId>>, GaveUp>;
-
-/// Searches for any plan; `landmarks` are counted as a second estimate.
-pub(crate) fn lazy_greedy(
-    task: &Task,
-    successors: &Successors,
-    heuristic: &mut dyn Heuristic,
-    landmarks: Option<&LandmarkGraph>,
-    meter: &mut Meter<'_>,
-) -> Found {
-    let pairs = 1 + usize::from(landmarks.is_some());
-    Search {
-        task,
-        successors,
-        heuristic,
-        landmarks: landmarks.map(|graph| (graph, Status::new(graph))),
-        registry: Registry::new(task),
-        queues: (0..2 * pairs).map(|_| Queue::default()).collect(),
-        best: [u32::MAX; 2],
-        preferred: Vec::new(),
-        applicable: Vec::new(),
-    }
-    .run(meter)
-}
 
 #[derive(Default)]
 struct Queue {
@@ -46,50 +21,78 @@ struct Queue {
     priority: i64,
 }
 
-struct Search<'a> {
-    task: &'a Task,
+/// One search; it can be run in slices.
+pub(super) struct LazyGreedy<'a, 't> {
+    task: &'t Task,
     successors: &'a Successors,
-    heuristic: &'a mut dyn Heuristic,
-    landmarks: Option<(&'a LandmarkGraph, Status)>,
+    heuristic: Relaxation<'t>,
+    landmarks: &'a LandmarkGraph,
+    status: Status,
     registry: Registry,
     /// For each heuristic a queue of all successors and one of those by preferred operators.
-    queues: Vec<Queue>,
+    queues: [Queue; 4],
     best: [u32; 2],
     preferred: Vec<OperatorId>,
     applicable: Vec<OperatorId>,
+    started: bool,
 }
 
-impl Search<'_> {
-    fn run(mut self, meter: &mut Meter<'_>) -> Found {
+impl<'a, 't> LazyGreedy<'a, 't> {
+    /// A search with h_FF and the count of landmarks.
+    pub fn new(
+        task: &'t Task,
+        successors: &'a Successors,
+        landmarks: &'a LandmarkGraph,
+        heuristic: Relaxation<'t>,
+    ) -> Self {
+        LazyGreedy {
+            task,
+            successors,
+            heuristic,
+            landmarks,
+            status: Status::new(landmarks),
+            registry: Registry::new(task),
+            queues: Default::default(),
+            best: [u32::MAX; 2],
+            preferred: Vec::new(),
+            applicable: Vec::new(),
+            started: false,
+        }
+    }
+
+    /// Goes on for `slice` expansions.
+    pub fn run(&mut self, slice: u64, meter: &mut Meter<'_>) -> Slice {
         let mut next = self.task.init.clone();
-        if self.task.is_goal(&next) {
-            return Ok(Some(Vec::new()));
+        if !std::mem::replace(&mut self.started, true) {
+            if self.task.is_goal(&next) {
+                return Ok(Progress::Solved(Vec::new()));
+            }
+            self.status.start(self.landmarks);
+            self.expand(StateId(0), &next);
         }
-        if let Some((graph, status)) = &mut self.landmarks {
-            status.start(graph);
-        }
-        self.expand(StateId(0), &next);
-        while let Some((parent, operator)) = self.pop() {
+        let mut done = 0;
+        while done < slice {
+            let Some((parent, operator)) = self.pop() else { return Ok(Progress::Exhausted { proof: true }) };
             self.task.apply(self.registry.state(parent), operator, &mut next);
             let (state, new) = self.registry.insert(&next, parent, operator);
             if !new {
                 continue;
             }
             if self.task.is_goal(&next) {
-                return Ok(Some(self.registry.path(state)));
+                return Ok(Progress::Solved(self.registry.path(state)));
             }
-            if let Some((graph, status)) = &mut self.landmarks {
-                status.reach(self.task, graph, parent.0 as usize, &next);
-            }
+            self.status.reach(self.task, self.landmarks, parent.0 as usize, &next);
+            done += 1;
             meter.expand(|| self.bytes())?;
             self.expand(state, &next);
         }
-        Ok(None)
+        Ok(Progress::Paused)
     }
 
-    fn bytes(&self) -> usize {
+    /// The bytes in use.
+    pub fn bytes(&self) -> usize {
         let open: usize = self.queues.iter().map(|queue| queue.open.bytes()).sum();
-        open + self.registry.bytes() + self.landmarks.as_ref().map_or(0, |(_, status)| status.bytes())
+        open + self.registry.bytes() + self.status.bytes()
     }
 
     fn pop(&mut self) -> Option<(StateId, OperatorId)> {
@@ -101,14 +104,11 @@ impl Search<'_> {
 
     fn expand(&mut self, id: StateId, state: &[u64]) {
         self.preferred.clear();
-        let Estimate::Cost(estimate) = self.heuristic.estimate(state, &mut self.preferred) else { return };
-        let mut estimates = [estimate, 0];
-        if let Some((graph, status)) = &self.landmarks {
-            estimates[1] = status.count(self.task, graph, id.0 as usize, state);
-        }
-        let heuristics = self.queues.len() / 2;
+        let Some(estimate) = self.heuristic.hff(state, &mut self.preferred) else { return };
+        let landmarks = self.status.count(self.task, self.landmarks, id.0 as usize, state);
+        let estimates = [estimate, landmarks];
         let mut progress = false;
-        for (best, &estimate) in self.best.iter_mut().zip(&estimates[..heuristics]) {
+        for (best, &estimate) in self.best.iter_mut().zip(&estimates) {
             progress |= estimate < *best;
             *best = estimate.min(*best);
         }

@@ -79,13 +79,20 @@ pub(crate) struct Meter<'a> {
     cancel: &'a AtomicBool,
     deadline: Option<Instant>,
     pub expanded: u64,
+    /// Bytes held by searches that are paused.
+    reserved: usize,
     ticks: u32,
 }
 
 impl<'a> Meter<'a> {
     pub fn new(limits: &'a Limits, cancel: &'a AtomicBool) -> Self {
         let deadline = limits.time.and_then(|time| Instant::now().checked_add(time));
-        Meter { limits, cancel, deadline, expanded: 0, ticks: 0 }
+        Meter { limits, cancel, deadline, expanded: 0, reserved: 0, ticks: 0 }
+    }
+
+    /// Says how much memory is held beside the search that runs.
+    pub fn reserve(&mut self, bytes: usize) {
+        self.reserved = bytes;
     }
 
     /// Counts an expansion; says if the search must stop. `bytes` is asked only now and then.
@@ -111,7 +118,7 @@ impl<'a> Meter<'a> {
         if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
             return Err(GaveUp::Time);
         }
-        if self.limits.memory_bytes.is_some_and(|limit| bytes() > limit) {
+        if self.limits.memory_bytes.is_some_and(|limit| self.reserved + bytes() > limit) {
             return Err(GaveUp::Memory);
         }
         Ok(())

@@ -1,9 +1,12 @@
 //! Searching for plans.
 
+mod astar;
 mod greedy;
 mod improve;
 mod limits;
+mod novelty;
 mod open_list;
+mod portfolio;
 mod registry;
 
 use std::rc::Rc;
@@ -14,10 +17,22 @@ use lamma_pddl::ast::{Domain, Problem};
 pub use limits::{GaveUp, Limits, Outcome, Unsolvable};
 
 use crate::ground::{GroundError, GroundLimits, ground};
-use crate::heuristic::{Costs, Graph, LandmarkGraph, Relaxation};
+use crate::heuristic::{Blind, Costs, Graph, Heuristic, LandmarkCut, Relaxation};
 use crate::successor::Successors;
-use crate::task::Task;
+use crate::task::{OperatorId, Task};
 use limits::Meter;
+
+/// How far a search came in its slice.
+enum Progress {
+    Solved(Vec<OperatorId>),
+    /// Nothing is left to look at. A proof that there is no plan only if nothing was pruned.
+    Exhausted {
+        proof: bool,
+    },
+    Paused,
+}
+
+type Slice = Result<Progress, GaveUp>;
 
 /// The work, in nodes of the relaxed task looked at, that improving a plan may take by default.
 const IMPROVEMENT_WORK: u64 = 400_000;
@@ -25,9 +40,37 @@ const IMPROVEMENT_WORK: u64 = 400_000;
 /// How to search.
 #[derive(Clone, Debug, Default)]
 pub struct SearchOptions {
+    /// Which search.
+    pub engine: Engine,
     /// States estimated to make the first plan better; zero: only useless actions are dropped. `None`: what
     /// takes about a millisecond, which is much for household tasks and next to nothing for large ones.
     pub improvement: Option<u64>,
+}
+
+/// The searches there are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Engine {
+    /// A plan soon: greedy search with h_FF and landmarks in turns with novelty search, then improvement.
+    #[default]
+    Portfolio,
+    /// A cheapest plan: A* with the landmark-cut heuristic.
+    AstarLmcut,
+    /// A cheapest plan: uniform-cost search.
+    AstarBlind,
+}
+
+impl Engine {
+    /// Every engine with the name it has on command lines.
+    pub const ALL: [(&'static str, Engine); 3] = [
+        ("portfolio", Engine::Portfolio),
+        ("astar-lmcut", Engine::AstarLmcut),
+        ("astar-blind", Engine::AstarBlind),
+    ];
+
+    /// The engine of a name.
+    pub fn named(name: &str) -> Option<Engine> {
+        Engine::ALL.iter().find(|(known, _)| *known == name).map(|&(_, engine)| engine)
+    }
 }
 
 /// What a search did.
@@ -37,6 +80,8 @@ pub struct Statistics {
     pub expanded: u64,
     /// Landmarks found.
     pub landmarks: usize,
+    /// Which search found it: the number of the slice.
+    pub slice: u32,
     /// The cost of the first plan.
     pub first_cost: f64,
 }
@@ -58,24 +103,32 @@ pub fn solve_with_statistics(
         return Outcome::Unsolvable(Unsolvable::Unreachable(task.impossible.clone()));
     }
     let graph = Rc::new(Graph::new(task));
-    let mut relaxation = Relaxation::on(task, Rc::clone(&graph), Costs::Unit);
-    let unreachable = relaxation.unreachable_goals(&task.init);
+    let unreachable = Relaxation::on(task, Rc::clone(&graph), Costs::Unit).unreachable_goals(&task.init);
     if !unreachable.is_empty() {
         let facts = unreachable.into_iter().map(|fact| task.fact_text(fact)).collect();
         return Outcome::Unsolvable(Unsolvable::Unreachable(facts));
     }
     let successors = Successors::new(task);
-    let landmarks = LandmarkGraph::new(task, &graph);
-    statistics.landmarks = landmarks.len();
     let mut meter = Meter::new(limits, cancel);
-    let found = greedy::lazy_greedy(task, &successors, &mut relaxation, Some(&landmarks), &mut meter);
+    let optimal = |heuristic: &mut dyn Heuristic, meter: &mut Meter<'_>| {
+        astar::astar(task, &successors, heuristic, meter).map(|progress| match progress {
+            Progress::Solved(path) => Some(path),
+            Progress::Exhausted { .. } | Progress::Paused => None,
+        })
+    };
+    let found = match options.engine {
+        Engine::Portfolio => portfolio::first_plan(task, &graph, &successors, &mut meter, statistics),
+        Engine::AstarLmcut => optimal(&mut LandmarkCut::new(task, Costs::Real), &mut meter),
+        Engine::AstarBlind => optimal(&mut Blind, &mut meter),
+    };
     statistics.expanded = meter.expanded;
     match found {
+        Ok(Some(path)) if options.engine != Engine::Portfolio => Outcome::Found(task.plan(&path)),
         Err(reason) => Outcome::GaveUp(reason),
         Ok(None) => Outcome::Unsolvable(Unsolvable::Exhausted),
         Ok(Some(path)) => {
             statistics.first_cost = path.iter().map(|&o| task.operators[o.index()].cost).sum();
-            let affordable = IMPROVEMENT_WORK / relaxation.size().max(1) as u64;
+            let affordable = IMPROVEMENT_WORK / graph.size().max(1) as u64;
             let effort = options.improvement.unwrap_or(affordable);
             let mut relaxation = Relaxation::on(task, graph, Costs::PlusOne);
             let path = improve::improve(task, &successors, &mut relaxation, path, effort, &mut meter);
