@@ -268,6 +268,9 @@ impl<'a> Parser<'a> {
             clause.unknown.push(word.to_owned());
             self.position += 1;
         }
+        if clause.verbs.is_empty() {
+            self.particle_alone(&mut clause, previous);
+        }
         self.wants_place = clause.verbs.iter().any(|verb| verb.act == Act::Place);
         self.arguments(&mut clause, start);
         self.wants_place = false;
@@ -283,6 +286,25 @@ impl<'a> Parser<'a> {
         clause.text = self.text_between(start, self.position);
         clause.words = self.words[start..self.position].to_vec();
         (!clause.text.is_empty()).then_some(clause)
+    }
+
+    /// "turn it on and then off": the verb is that of the clause before.
+    fn particle_alone(&mut self, clause: &mut Clause<'a>, previous: Option<&Clause<'a>>) {
+        let (Some(previous), Some(word)) = (previous, self.peek()) else { return };
+        let first = previous.verb_text.split(' ').next().unwrap_or_default();
+        let verbs: Vec<&Verb> = self
+            .lexicon
+            .verbs(first)
+            .into_iter()
+            .filter(|(_, particles, _)| particles.len() == 1 && particles[0] == word)
+            .map(|(_, _, verb)| verb)
+            .collect();
+        if !verbs.is_empty() && self.word_at(1).is_none_or(|next| !is_determiner(next)) {
+            clause.verbs = verbs;
+            clause.verb_text = format!("{first} {word}");
+            clause.unknown.clear();
+            self.position += 1;
+        }
     }
 
     /// "with a card in hand, turn on the lamp": places said before the verb.
@@ -401,13 +423,19 @@ impl<'a> Parser<'a> {
 
     /// After "and": whether what follows is "NP in NP", to be read with the same verb.
     fn same_verb_again(&self, clause: &Clause<'a>) -> bool {
-        if clause.verbs.is_empty() || clause.objects.is_empty() || clause.places.is_empty() {
+        let complete = !clause.places.is_empty() || !clause.complement.is_empty();
+        if clause.verbs.is_empty() || clause.objects.is_empty() || !complete {
             return false;
         }
         let mut ahead = self.ahead(0);
         ahead.skip_joins();
         if ahead.phrases(0).is_empty() {
             return false;
+        }
+        if !clause.complement.is_empty() {
+            let rest = ahead.rest();
+            let states = |word: &&str| ["is", "are", "stays", "stay"].contains(word) || self.lexicon.adjective(&[word]).is_some();
+            return rest.first().is_some_and(states);
         }
         preposition(&ahead.rest()).is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
             || ahead.complements_follow()
@@ -545,6 +573,10 @@ impl<'a> Parser<'a> {
         {
             object.with.push(phrase);
             return true;
+        }
+        let mut phrase = phrase;
+        if let (false, Some(object)) = (phrase.except.is_empty(), clause.objects.last_mut()) {
+            object.except.append(&mut phrase.except);
         }
         clause.places.push(Place::new(relation, &self.words[start], phrase));
         self.more_places(clause, relation);

@@ -120,9 +120,10 @@ impl<'d, 'a> Interpreter<'d, 'a> {
     }
 
     pub(super) fn add(&mut self, entity: usize, change: Change) {
-        let fact = Fact { clause: self.clause, entity, change };
-        if !self.facts.contains(&fact) {
-            self.facts.push(fact);
+        // What is so already is not said twice; what was changed in between is.
+        let last = self.facts.iter().rev().find(|fact| fact.entity == entity && about_the_same(&fact.change, &change));
+        if last.is_none_or(|last| last.change != change) {
+            self.facts.push(Fact { clause: self.clause, entity, change });
         }
     }
 
@@ -414,6 +415,15 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             }
         }
         Spoken { objects, ..Spoken::default() }
+    }
+}
+
+/// Whether one change can undo the other.
+fn about_the_same(a: &Change, b: &Change) -> bool {
+    match (a, b) {
+        (Change::State(a, _), Change::State(b, _)) => a == b,
+        (Change::State(..), _) | (_, Change::State(..)) => false,
+        _ => true,
     }
 }
 

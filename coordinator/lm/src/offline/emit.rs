@@ -13,6 +13,16 @@ use crate::Subtask;
 /// Contents within contents go no deeper than this.
 const DEEPEST: usize = 4;
 
+/// A thing that stays in the device it was treated with, when nothing else is said.
+pub struct Stay {
+    /// The clause of the treatment.
+    pub clause: usize,
+    /// The thing.
+    pub entity: usize,
+    /// The type of the device.
+    pub device: String,
+}
+
 /// Turns the facts of clauses into sub-tasks.
 pub struct Emitter<'e, 'a> {
     discourse: &'e Discourse<'a>,
@@ -24,15 +34,16 @@ pub struct Emitter<'e, 'a> {
 impl<'e, 'a> Emitter<'e, 'a> {
     /// Completes the facts (what is chilled stays in the fridge, what is put down is not held) and finds
     /// out which of them last.
-    pub fn new(discourse: &'e mut Discourse<'a>, mut facts: Vec<Fact>, chilled: &[(usize, usize)]) -> Self {
-        for &(clause, entity) in chilled {
+    pub fn new(discourse: &'e mut Discourse<'a>, mut facts: Vec<Fact>, stays: &[Stay]) -> Self {
+        for Stay { clause, entity, device } in stays {
+            let (clause, entity) = (*clause, *entity);
             let placed = facts.iter().any(|fact| {
                 fact.entity == entity && matches!(fact.change, Change::Inside(_) | Change::Held)
             });
             let kind = discourse.entities[entity].kind().to_owned();
-            if !placed && discourse.scene.accepts("Fridge", &kind) {
-                discourse.assume(format!("the {kind} stays in the Fridge that chills it"), 0.98);
-                let place = discourse.place_of_kind("Fridge");
+            if !placed && discourse.scene.accepts(device, &kind) {
+                discourse.assume(format!("the {kind} stays in the {device}"), 0.98);
+                let place = discourse.place_of_kind(device);
                 facts.push(Fact { clause, entity, change: Change::Inside(place) });
             }
         }

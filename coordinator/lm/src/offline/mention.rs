@@ -188,6 +188,10 @@ impl<'a> Discourse<'a> {
     }
 
     fn noun(&mut self, noun: &Noun, phrase: &Phrase, at: &[Place], wants: Option<&str>) -> Vec<usize> {
+        if noun.word == "water" && wants != Some("toggleable") {
+            self.problem("it is not said what the water is to be in".to_owned(), 0.3);
+            return Vec::new();
+        }
         if let Some(known) = self.spoken_of_before(noun, phrase) {
             return known;
         }
@@ -558,13 +562,20 @@ impl Discourse<'_> {
     }
 
     fn can_be_cooked(&self, kind: &str) -> bool {
-        self.scene.affords(kind, "cookable") || kind == "Bread"
+        self.scene.affords(kind, "cookable") || self.cooks_in_slices(kind)
+    }
+
+    fn cooks_in_slices(&self, kind: &str) -> bool {
+        self.lexicon.is_small("cooked_in_slices", &[&kind.to_lowercase()])
     }
 
     /// The states a verb brings to a thing of this kind; notes what is not possible.
     pub fn adapted_states(&mut self, entity: usize, verb: &super::lexicon::Verb) -> Settings {
         let kind = self.entities[entity].kind().to_owned();
-        let states = self.possible_states(entity, verb.set.clone());
+        let mut states = self.possible_states(entity, verb.set.clone());
+        if states.contains_key("isCooked") && self.cooks_in_slices(&kind) && states.insert("isSliced".to_owned(), super::yes()).is_none() {
+            self.assume(format!("only slices of the {kind} can be cooked"), 0.99);
+        }
         for property in states.keys() {
             let needed = match property.as_str() {
                 "isOpen" => "openable",

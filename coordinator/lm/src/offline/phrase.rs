@@ -380,7 +380,7 @@ impl Parser<'_> {
                     self.position += 2;
                     phrase.with.extend(self.phrases(depth + 1));
                 }
-                Some("with") if matches!(&phrase.head, Head::Noun(_) | Head::Named(_)) => {
+                Some("with") if self.is_vessel(phrase) => {
                     self.position += 1;
                     let with = self.phrases(depth + 1);
                     if with.is_empty() {

@@ -5,19 +5,18 @@ use std::collections::{BTreeMap, BTreeSet};
 use lamma_domains::goal::PropertyValue;
 
 use super::lexicon::{Settings, split_camel_case};
-use crate::{ObjectView, RobotView};
+use crate::ObjectView;
 
 /// An index over the objects of a request.
 pub struct Scene<'a> {
     objects: BTreeMap<&'a str, &'a ObjectView>,
     kinds: BTreeMap<&'a str, Vec<&'a ObjectView>>,
-    skills: BTreeSet<&'a str>,
     words: BTreeSet<String>,
 }
 
 impl<'a> Scene<'a> {
-    /// Indexes the objects and the team's skills.
-    pub fn new(objects: &'a [ObjectView], robots: &'a [RobotView]) -> Self {
+    /// Indexes the objects.
+    pub fn new(objects: &'a [ObjectView]) -> Self {
         let mut kinds: BTreeMap<&str, Vec<&ObjectView>> = BTreeMap::new();
         for object in objects {
             kinds.entry(&object.kind).or_default().push(object);
@@ -34,7 +33,6 @@ impl<'a> Scene<'a> {
         Self {
             objects: objects.iter().map(|object| (object.name.as_str(), object)).collect(),
             kinds,
-            skills: robots.iter().flat_map(|robot| robot.skills.iter().map(String::as_str)).collect(),
             words,
         }
     }
@@ -79,11 +77,6 @@ impl<'a> Scene<'a> {
     /// Whether a receptacle type is known to take a type.
     pub fn surely_accepts(&self, receptacle: &str, kind: &str) -> bool {
         self.accepts(receptacle, kind) && self.of_kind(receptacle).iter().any(|object| !object.accepts.is_empty())
-    }
-
-    /// Whether one of the team has the skill; a team of no stated skills is taken to have all.
-    pub fn can(&self, skill: &str) -> bool {
-        self.skills.is_empty() || self.skills.contains(skill)
     }
 
     /// The words of the types' names.

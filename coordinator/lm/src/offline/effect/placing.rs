@@ -72,7 +72,10 @@ impl<'a> Interpreter<'_, 'a> {
     fn sort_places(&self, clause: &Clause<'a>) -> (Option<Place>, Option<Place>, Vec<Place>) {
         let scene = self.discourse.scene;
         let is_there = |place: &Place| match &place.phrase.head {
-            Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")),
+            Head::Noun(noun) => {
+                noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle"))
+                    || !noun.kinds.iter().any(|kind| scene.has(kind))
+            }
             Head::Named(_) | Head::Pronoun { .. } => true,
             Head::Unknown(_) => true,
             _ => false,
