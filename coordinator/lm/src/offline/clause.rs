@@ -42,6 +42,7 @@ impl<'a> Parser<'a> {
         // A clause that waits for the one said after it.
         let mut delayed: Option<Clause<'a>> = None;
         while self.position < self.words.len() && clauses.len() < MOST_CLAUSES {
+            let said_from = self.position;
             let opening = self.opening(clauses.is_empty() && delayed.is_none());
             let start = self.position;
             if start >= self.words.len() {
@@ -49,7 +50,8 @@ impl<'a> Parser<'a> {
             }
             let clause = self.clause(&opening, clauses.last());
             self.position = self.position.max(start + 1);
-            let Some(clause) = clause else { continue };
+            let Some(mut clause) = clause else { continue };
+            clause.words = self.words[said_from..self.position].to_vec();
             if opening.after_next && delayed.is_none() {
                 delayed = Some(clause);
             } else if let (true, Some(previous)) = (opening.before_previous, clauses.last_mut()) {
@@ -112,6 +114,11 @@ impl<'a> Parser<'a> {
                 self.position += length;
                 continue;
             }
+            let polite = self.lexicon.longest_small("polite", &rest);
+            if let Some(length) = polite.filter(|&length| length > 1) {
+                self.position += length;
+                continue;
+            }
             match word {
                 "," | "." | "and" | "so" | "but" | "plus" | "first" | "firstly" | "to" | "you" | "i" | "we" => {}
                 "before" => {
@@ -134,7 +141,6 @@ impl<'a> Parser<'a> {
                 }
                 "dont" | "never" | "without" | "not" | "avoid" => opening.negated = true,
                 _ => {
-                    let polite = self.lexicon.longest_small("polite", &rest);
                     match polite {
                         Some(length) => {
                             self.position += length;
@@ -154,11 +160,12 @@ impl<'a> Parser<'a> {
         let word = self.peek()?;
         let candidates = self.lexicon.verbs(word);
         let behind: Vec<&str> = self.rest().into_iter().skip(1).collect();
-        let (form, particles, _) = candidates.iter().find(|(_, particles, verb)| {
+        let contiguous = candidates.iter().find(|(_, particles, verb)| {
             particles.len() <= behind.len()
                 && particles.iter().zip(&behind).all(|(a, b)| a == b)
                 && self.object_may_fit(particles, verb)
-        })?;
+        });
+        let Some((form, particles, _)) = contiguous else { return self.verb_apart(&candidates) };
         let (form, length) = (*form, particles.len());
         let verbs = candidates
             .iter()
@@ -166,6 +173,21 @@ impl<'a> Parser<'a> {
             .map(|(_, _, verb)| *verb)
             .collect();
         Some((form, verbs, length + 1))
+    }
+
+    /// "switch the light on": a verb that needs its particle, which stands behind the object.
+    fn verb_apart(&self, candidates: &[(VerbForm, &'a [String], &'a Verb)]) -> Option<(VerbForm, Vec<&'a Verb>, usize)> {
+        let behind: Vec<&str> = self.words[self.position + 1..]
+            .iter()
+            .map(String::as_str)
+            .take(8)
+            .take_while(|word| ![".", ",", "then"].contains(word))
+            .collect();
+        let (form, particles, _) = candidates
+            .iter()
+            .find(|(_, particles, _)| particles.len() == 1 && behind.contains(&particles[0].as_str()))?;
+        let verbs = candidates.iter().filter(|(_, other, _)| other == particles).map(|(_, _, verb)| *verb).collect();
+        Some((*form, verbs, 1))
     }
 
     /// "put on the light" switches; "put on the table" puts: what follows decides.
@@ -284,7 +306,6 @@ impl<'a> Parser<'a> {
             clause.verb_text.clone_from(&previous.verb_text);
         }
         clause.text = self.text_between(start, self.position);
-        clause.words = self.words[start..self.position].to_vec();
         (!clause.text.is_empty()).then_some(clause)
     }
 

@@ -81,7 +81,12 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 Act::Empty => self.empty(clause),
             };
         } else if !clause.complement.is_empty() {
-            spoken = self.keep(clause);
+            // "the lamp should be off" asks for it; "the lamp is off" only says so.
+            if clause.words.iter().any(|word| ["should", "must", "needs", "need", "shall", "be"].contains(&word.as_str())) {
+                spoken = self.keep(clause);
+            } else {
+                self.discourse.problem(format!("it is not said what to do about \"{}\"", clause.text), 0.3);
+            }
         } else if !clause.objects.is_empty() || !clause.unknown.is_empty() {
             self.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.25);
         }

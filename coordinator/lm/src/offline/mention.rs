@@ -27,6 +27,8 @@ pub struct Entity {
     pub which: Which,
     /// In words.
     pub text: String,
+    /// The noun it was named by.
+    pub noun: String,
     /// States the words ask for.
     pub asked: Settings,
     /// What the words say it holds.
@@ -114,6 +116,9 @@ impl<'a> Discourse<'a> {
         let contents: Vec<usize> =
             if found.len() == 1 { self.contents(found[0], &phrase.with) } else { Vec::new() };
         for &entity in &found {
+            if let (Head::Noun(noun), true) = (&phrase.head, self.entities[entity].noun.is_empty()) {
+                self.entities[entity].noun.clone_from(&noun.word);
+            }
             self.entities[entity].asked.extend(phrase.states.clone());
             for &content in &contents {
                 if !self.entities[entity].holds.contains(&content) {
@@ -169,6 +174,7 @@ impl<'a> Discourse<'a> {
             kinds,
             which,
             text: text.to_owned(),
+            noun: String::new(),
             asked: Settings::new(),
             holds: Vec::new(),
         });
@@ -200,6 +206,12 @@ impl<'a> Discourse<'a> {
             self.problem(format!("there is no {} here", noun.word), 0.2);
             return Vec::new();
         }
+        if let (false, Some(own)) = (noun.class, noun.kinds.first())
+            && *own != kinds[0]
+            && super::lexicon::squash(own) == super::lexicon::squash(&noun.word)
+        {
+            self.assume(format!("there is no {} here; a {} is taken for it", noun.word, kinds[0]), 0.9);
+        }
         if let Some(wants) = wants {
             let able: Vec<String> = kinds.iter().filter(|kind| self.affords(kind, wants)).cloned().collect();
             if !able.is_empty() {
@@ -230,7 +242,7 @@ impl<'a> Discourse<'a> {
     /// The same words again mean the same thing, unless they say "another" or "a".
     fn spoken_of_before(&self, noun: &Noun, phrase: &Phrase) -> Option<Vec<usize>> {
         let sliced_again = phrase.states.contains_key("isSliced")
-            && self.entities.iter().any(|e| e.asked.contains_key("isSliced") && overlaps(e, noun));
+            && self.entities.iter().any(|e| e.asked.contains_key("isSliced") && names(noun, e, self.scene));
         if phrase.other
             || noun.class && phrase.quantity != Quantity::One && !phrase.definite
             || (phrase.indefinite && !sliced_again)
@@ -241,7 +253,7 @@ impl<'a> Discourse<'a> {
         for spoken in self.spoken.iter().rev() {
             for group in [&spoken.objects, &spoken.places] {
                 let known: Vec<usize> =
-                    group.iter().copied().filter(|&e| overlaps(&self.entities[e], noun)).collect();
+                    group.iter().copied().filter(|&e| names(noun, &self.entities[e], self.scene)).collect();
                 let wanted_one = phrase.quantity == Quantity::One && known.len() == 1;
                 let wanted_all = phrase.quantity == Quantity::All && phrase.definite && known.len() > 1;
                 if wanted_one || wanted_all {
@@ -494,8 +506,14 @@ impl<'a> Discourse<'a> {
     }
 }
 
-fn overlaps(entity: &Entity, noun: &Noun) -> bool {
-    entity.kinds.iter().any(|kind| noun.kinds.contains(kind))
+/// Whether a noun would be taken for the type that an entity is taken for.
+fn names(noun: &Noun, entity: &Entity, scene: &Scene<'_>) -> bool {
+    if noun.class {
+        return noun.kinds.iter().any(|kind| kind == entity.kind());
+    }
+    let first = noun.kinds.iter().find(|kind| scene.has(kind));
+    first.is_some_and(|first| first == entity.kind())
+        || entity.noun == noun.word && noun.kinds.iter().any(|kind| kind == entity.kind())
 }
 
 impl Discourse<'_> {

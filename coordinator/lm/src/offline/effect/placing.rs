@@ -47,7 +47,8 @@ impl<'a> Interpreter<'_, 'a> {
             let home = match (verb.act, clause.back) {
                 (_, true) => self.where_it_was(entity),
                 (Act::Store, _) => self.home_of(&kind),
-                _ => homes.iter().find(|home| self.discourse.scene.has(home)).cloned(),
+                (Act::Discard, _) => homes.iter().find(|home| self.discourse.scene.has(home)).cloned(),
+                _ => homes.iter().find(|home| self.discourse.scene.accepts(home, &kind)).cloned(),
             };
             match home {
                 Some(home) => {
