@@ -33,7 +33,8 @@ fn understood(instruction: &str, objects: Vec<lamma_lm::ObjectView>) -> Decompos
 
 /// The goals that last, in order, as JSON.
 fn goals(decomposition: &Decomposition) -> Value {
-    let goals = decomposition.subtasks.iter().filter(|subtask| subtask.lasting).flat_map(|subtask| &subtask.goal);
+    let goals =
+        decomposition.subtasks.iter().filter(|subtask| subtask.lasting).flat_map(|subtask| &subtask.goal);
     serde_json::to_value(goals.collect::<Vec<_>>()).expect("goals are plain data")
 }
 
@@ -60,7 +61,10 @@ fn kitchen_commands_have_the_goals_they_say() {
         ("smash the mug", json!([{"object": "Mug", "is": {"isBroken": true}}])),
         ("cook the potato", json!([{"object": "Potato", "is": {"isCooked": true}}])),
         ("warm up the tomato", json!([{"object": "Tomato", "is": hot}])),
-        ("fill the mug with water", json!([{"object": "Mug", "is": {"fillLiquid": "water", "isFilledWithLiquid": true}}])),
+        (
+            "fill the mug with water",
+            json!([{"object": "Mug", "is": {"fillLiquid": "water", "isFilledWithLiquid": true}}]),
+        ),
         (
             "chill the tomato",
             json!([{"object": "Fridge", "contains": [{"object": "Tomato", "is": {"temperature": "Cold"}}]}]),
@@ -98,13 +102,21 @@ fn kitchen_commands_have_the_goals_they_say() {
 #[test]
 fn the_scene_decides_what_a_word_means() {
     // Only a mug fits the coffee machine, so that is the cup meant.
-    check("put the cup into the coffee maker", kitchen(), json!([{"object": "CoffeeMachine", "contains": ["Mug"]}]));
+    check(
+        "put the cup into the coffee maker",
+        kitchen(),
+        json!([{"object": "CoffeeMachine", "contains": ["Mug"]}]),
+    );
     check(
         "look at the watch under the lamp",
         bedroom(),
         json!([{"object": "Watch", "is": {"isPickedUp": true}}, {"object": "DeskLamp", "is": {"isToggled": true}}]),
     );
-    check("put the book that is on the bed into the box", bedroom(), json!([{"object": "Box", "contains": ["Book_2"]}]));
+    check(
+        "put the book that is on the bed into the box",
+        bedroom(),
+        json!([{"object": "Box", "contains": ["Book_2"]}]),
+    );
     check(
         "put everything on the bed except the pillow into the box",
         bedroom(),
@@ -135,7 +147,8 @@ fn order_words_order_and_others_do_not() {
 
 #[test]
 fn what_a_later_step_undoes_does_not_last() {
-    let decomposition = understood("open the fridge, put the egg in the fridge and close the fridge", kitchen());
+    let decomposition =
+        understood("open the fridge, put the egg in the fridge and close the fridge", kitchen());
     let lasting: Vec<bool> = decomposition.subtasks.iter().map(|subtask| subtask.lasting).collect();
     assert_eq!(lasting, [false, true, true]);
     let moved = understood("put the tomato in the microwave, then move it to the fridge", kitchen());
@@ -183,7 +196,11 @@ fn told_to_assume_it_takes_the_best_reading_and_says_what_is_doubtful() {
     match offline().read(&request("put three apples in the fridge", kitchen(), true)) {
         Answer::Understood(decomposition) => {
             assert!(decomposition.confidence < 0.5);
-            assert!(decomposition.assumptions.iter().any(|a| a.contains('3')), "{:?}", decomposition.assumptions);
+            assert!(
+                decomposition.assumptions.iter().any(|a| a.contains('3')),
+                "{:?}",
+                decomposition.assumptions
+            );
         }
         other => panic!("{other:?}"),
     }
@@ -206,7 +223,10 @@ fn vague_commands_are_read_as_situations_of_this_room() {
         json!([{"object": "CoffeeMachine", "contains": ["Mug"], "is": {"isToggled": true}}]),
     );
     let assumptions = understood("I would love a coffee", kitchen()).assumptions;
-    assert!(assumptions.iter().any(|a| a.contains("coffee")), "a situation is always stated: {assumptions:?}");
+    assert!(
+        assumptions.iter().any(|a| a.contains("coffee")),
+        "a situation is always stated: {assumptions:?}"
+    );
 }
 
 /// Pairs that must mean the same.
@@ -229,9 +249,18 @@ fn wording_does_not_change_the_goal() {
             for subtask in understood(instruction, kitchen()).subtasks {
                 for entry in subtask.goal {
                     for content in &entry.contains {
-                        facts.push(format!("{} in {}", serde_json::to_string(content).unwrap_or_default(), entry.object));
+                        facts.push(format!(
+                            "{} in {}",
+                            serde_json::to_string(content).unwrap_or_default(),
+                            entry.object
+                        ));
                     }
-                    facts.extend(entry.is.iter().map(|(property, value)| format!("{} {property} {value:?}", entry.object)));
+                    facts.extend(
+                        entry
+                            .is
+                            .iter()
+                            .map(|(property, value)| format!("{} {property} {value:?}", entry.object)),
+                    );
                 }
             }
             facts.sort();
@@ -281,7 +310,10 @@ fn distractors_are_left_alone() {
         for object in &objects {
             let quoted = [format!("\"{}\"", object.kind), format!("\"{}\"", object.name)];
             let mentioned = quoted.iter().any(|name| text.contains(name.as_str()));
-            assert!(!mentioned || allowed.contains(&object.kind.as_str()), "seed {seed}: {sentence:?} -> {text}");
+            assert!(
+                !mentioned || allowed.contains(&object.kind.as_str()),
+                "seed {seed}: {sentence:?} -> {text}"
+            );
         }
     }
 }

@@ -120,7 +120,8 @@ impl<'a> Parser<'a> {
                 continue;
             }
             match word {
-                "," | "." | "and" | "so" | "but" | "plus" | "first" | "firstly" | "to" | "you" | "i" | "we" => {}
+                "," | "." | "and" | "so" | "but" | "plus" | "first" | "firstly" | "to" | "you" | "i"
+                | "we" => {}
                 "before" => {
                     if first {
                         opening.after_next = true;
@@ -140,15 +141,13 @@ impl<'a> Parser<'a> {
                     self.position += 1;
                 }
                 "dont" | "never" | "without" | "not" | "avoid" => opening.negated = true,
-                _ => {
-                    match polite {
-                        Some(length) => {
-                            self.position += length;
-                            continue;
-                        }
-                        None => break,
+                _ => match polite {
+                    Some(length) => {
+                        self.position += length;
+                        continue;
                     }
-                }
+                    None => break,
+                },
             }
             self.position += 1;
         }
@@ -176,7 +175,10 @@ impl<'a> Parser<'a> {
     }
 
     /// "switch the light on": a verb that needs its particle, which stands behind the object.
-    fn verb_apart(&self, candidates: &[(VerbForm, &'a [String], &'a Verb)]) -> Option<(VerbForm, Vec<&'a Verb>, usize)> {
+    fn verb_apart(
+        &self,
+        candidates: &[(VerbForm, &'a [String], &'a Verb)],
+    ) -> Option<(VerbForm, Vec<&'a Verb>, usize)> {
         let behind: Vec<&str> = self.words[self.position + 1..]
             .iter()
             .map(String::as_str)
@@ -186,7 +188,8 @@ impl<'a> Parser<'a> {
         let (form, particles, _) = candidates
             .iter()
             .find(|(_, particles, _)| particles.len() == 1 && behind.contains(&particles[0].as_str()))?;
-        let verbs = candidates.iter().filter(|(_, other, _)| other == particles).map(|(_, _, verb)| *verb).collect();
+        let verbs =
+            candidates.iter().filter(|(_, other, _)| other == particles).map(|(_, _, verb)| *verb).collect();
         Some((*form, verbs, 1))
     }
 
@@ -215,7 +218,9 @@ impl<'a> Parser<'a> {
     /// Whether a clause rather than another noun phrase starts at the position.
     pub(super) fn clause_starts_here(&self, first: bool) -> bool {
         let Some(word) = self.peek() else { return true };
-        if [".", "then", "before", "after", "while", "when", "once", "until", "but", "dont", "without"].contains(&word) {
+        if [".", "then", "before", "after", "while", "when", "once", "until", "but", "dont", "without"]
+            .contains(&word)
+        {
             return true;
         }
         let rest = self.rest();
@@ -228,9 +233,12 @@ impl<'a> Parser<'a> {
             return self.lexicon.longest_small("polite", &rest).is_some();
         };
         let next = self.word_at(length);
-        let determined = next.is_some_and(|next| is_determiner(next) || ["it", "them", "everything"].contains(&next));
+        let determined =
+            next.is_some_and(|next| is_determiner(next) || ["it", "them", "everything"].contains(&next));
         let noun = self.longest_noun();
-        if noun.as_ref().is_some_and(|(_, _, noun_length)| *noun_length > length) {
+        if noun.as_ref().is_some_and(|(_, _, noun_length)| *noun_length > length)
+            && !(first && self.noun_begins(length))
+        {
             return false;
         }
         if form == VerbForm::Past {
@@ -406,7 +414,11 @@ impl<'a> Parser<'a> {
             "then" | "but" | "until" | "so" | "dont" => self.position > start,
             "while" | "before" | "whilst" | "once" | "when" | "without" => self.position > start,
             "after" => self.position > start && next != "that",
-            "as" => self.position > start && !self.rest().starts_with(&["as", "well"]) && self.ahead(1).clause_starts_here(false),
+            "as" => {
+                self.position > start
+                    && !self.rest().starts_with(&["as", "well"])
+                    && self.ahead(1).clause_starts_here(false)
+            }
             // "to turn it on" begins a clause; "to the sink" does not.
             "to" | "by" => {
                 self.position > start
@@ -414,11 +426,7 @@ impl<'a> Parser<'a> {
                     && self.ahead(1).verbs_here().is_some()
                     && !clause.verbs.is_empty()
             }
-            _ => {
-                self.position > start
-                    && !clause.objects.is_empty()
-                    && self.verb_reads_as_clause()
-            }
+            _ => self.position > start && !clause.objects.is_empty() && self.verb_reads_as_clause(),
         }
     }
 
@@ -455,10 +463,13 @@ impl<'a> Parser<'a> {
         }
         if !clause.complement.is_empty() {
             let rest = ahead.rest();
-            let states = |word: &&str| ["is", "are", "stays", "stay"].contains(word) || self.lexicon.adjective(&[word]).is_some();
+            let states = |word: &&str| {
+                ["is", "are", "stays", "stay"].contains(word) || self.lexicon.adjective(&[word]).is_some()
+            };
             return rest.first().is_some_and(states);
         }
-        preposition(&ahead.rest()).is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
+        preposition(&ahead.rest())
+            .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
             || ahead.complements_follow()
     }
 
@@ -485,7 +496,8 @@ impl<'a> Parser<'a> {
             return false;
         }
         let free = next.is_none_or(|next| {
-            [",", ".", "and", "then", "before", "after", "while", "but", "again", "please", "so"].contains(&next)
+            [",", ".", "and", "then", "before", "after", "while", "but", "again", "please", "so"]
+                .contains(&next)
                 || preposition(&[next]).is_some()
                 || self.lexicon.is_small("polite", &[next])
         });
@@ -504,8 +516,12 @@ impl<'a> Parser<'a> {
         if with_particle.is_empty() || clause.verb_text.contains(' ') {
             return false;
         }
-        if preposition(&[word]).is_some() && next.is_some_and(|n| preposition(&[n]).is_none() && n != "," && n != "." && n != "and") {
-            let known_end = next.is_some_and(|n| is_function_word(n) && !is_determiner(n) || self.lexicon.is_small("polite", &[n]));
+        if preposition(&[word]).is_some()
+            && next.is_some_and(|n| preposition(&[n]).is_none() && n != "," && n != "." && n != "and")
+        {
+            let known_end = next.is_some_and(|n| {
+                is_function_word(n) && !is_determiner(n) || self.lexicon.is_small("polite", &[n])
+            });
             if !known_end {
                 return false;
             }
@@ -540,7 +556,28 @@ impl<'a> Parser<'a> {
             return false;
         }
         let start = self.position;
-        while matches!(self.peek(), Some("is" | "are" | "be" | "being" | "stay" | "stays" | "remain" | "remains" | "were" | "was" | "get" | "gets" | "all" | "to" | "should" | "must" | "completely" | "fully")) {
+        while matches!(
+            self.peek(),
+            Some(
+                "is" | "are"
+                    | "be"
+                    | "being"
+                    | "stay"
+                    | "stays"
+                    | "remain"
+                    | "remains"
+                    | "were"
+                    | "was"
+                    | "get"
+                    | "gets"
+                    | "all"
+                    | "to"
+                    | "should"
+                    | "must"
+                    | "completely"
+                    | "fully"
+            )
+        ) {
             if self.peek() == Some("to") && !matches!(self.word_at(1), Some("be" | "stay" | "remain")) {
                 break;
             }
@@ -557,7 +594,10 @@ impl<'a> Parser<'a> {
                     || preposition(&[next]).is_some() && self.position > start
             });
             let particle = self.position == start && preposition(&rest[..length]).is_some();
-            if !ends || (particle && clause.verbs.iter().all(|verb| verb.act != Act::Keep && verb.act != Act::Place)) {
+            if !ends
+                || (particle
+                    && clause.verbs.iter().all(|verb| verb.act != Act::Keep && verb.act != Act::Place))
+            {
                 continue;
             }
             for (property, value) in &adjective.set {
@@ -616,7 +656,8 @@ impl<'a> Parser<'a> {
                 self.position = start;
                 return;
             };
-            let another_pair = relation != Relation::From && preposition(&self.rest()).is_some() || matches!(self.peek(), Some("on" | "off"));
+            let another_pair = relation != Relation::From && preposition(&self.rest()).is_some()
+                || matches!(self.peek(), Some("on" | "off"));
             if another_pair {
                 self.position = start;
                 return;

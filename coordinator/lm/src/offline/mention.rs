@@ -142,7 +142,8 @@ impl<'a> Discourse<'a> {
             let fitting: Vec<String> = holders
                 .iter()
                 .filter(|kind| {
-                    scene.affords(kind, "pickupable") && noun.kinds.iter().any(|content| scene.accepts(kind, content))
+                    scene.affords(kind, "pickupable")
+                        && noun.kinds.iter().any(|content| scene.accepts(kind, content))
                 })
                 .cloned()
                 .collect();
@@ -155,7 +156,9 @@ impl<'a> Discourse<'a> {
             narrowed.head = Head::Noun(Noun {
                 kinds: kinds
                     .iter()
-                    .filter(|content| scene.has(content) && fitting.iter().any(|kind| scene.accepts(kind, content)))
+                    .filter(|content| {
+                        scene.has(content) && fitting.iter().any(|kind| scene.accepts(kind, content))
+                    })
                     .cloned()
                     .collect(),
                 ..noun.clone()
@@ -304,7 +307,9 @@ impl<'a> Discourse<'a> {
             }
             let fits = |object: &&&ObjectView| {
                 is_in_state(object, &phrase.selects)
-                    && (!phrase.definite || is_in_state(object, &phrase.states) || phrase.states.contains_key("isDirty"))
+                    && (!phrase.definite
+                        || is_in_state(object, &phrase.states)
+                        || phrase.states.contains_key("isDirty"))
                     && phrase.at.iter().chain(at).all(|place| self.is_at(object, place))
             };
             let some: Vec<&ObjectView> = all.iter().filter(fits).copied().collect();
@@ -339,7 +344,10 @@ impl<'a> Discourse<'a> {
             None => {
                 let there: usize = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).sum();
                 if there < count {
-                    self.problem(format!("there are not {count} of \"{}\" here, only {there}", phrase.text), 0.45);
+                    self.problem(
+                        format!("there are not {count} of \"{}\" here, only {there}", phrase.text),
+                        0.45,
+                    );
                 }
                 return self.spread(kinds, count.min(there), phrase);
             }
@@ -348,7 +356,10 @@ impl<'a> Discourse<'a> {
         if selected.len() >= count {
             let names: Vec<(String, String)> =
                 selected.iter().take(count).map(|o| (o.kind.clone(), o.name.clone())).collect();
-            return names.into_iter().map(|(kind, name)| self.add(vec![kind], Which::Named(name), &phrase.text)).collect();
+            return names
+                .into_iter()
+                .map(|(kind, name)| self.add(vec![kind], Which::Named(name), &phrase.text))
+                .collect();
         }
         (0..count).map(|_| self.add(order.clone(), Which::Any, &phrase.text)).collect()
     }
@@ -368,7 +379,11 @@ impl<'a> Discourse<'a> {
                 let chosen = if selected.is_empty() { all.to_vec() } else { selected };
                 for object in chosen {
                     if !except.contains(&object.name) && !except.contains(&object.kind) {
-                        found.push(self.add(vec![kind.clone()], Which::Named(object.name.clone()), &phrase.text));
+                        found.push(self.add(
+                            vec![kind.clone()],
+                            Which::Named(object.name.clone()),
+                            &phrase.text,
+                        ));
                     }
                 }
             }
@@ -378,12 +393,16 @@ impl<'a> Discourse<'a> {
 
     /// Members of a class: all of them for a plural, so many of different types for a number.
     fn class(&mut self, noun: &Noun, kinds: &[String], phrase: &Phrase, at: &[Place]) -> Vec<usize> {
-        let uncountable = !noun.word.ends_with('s') && ["food", "cutlery", "silverware", "produce", "fruit"].contains(&noun.word.as_str());
+        let uncountable = !noun.word.ends_with('s')
+            && ["food", "cutlery", "silverware", "produce", "fruit"].contains(&noun.word.as_str());
         let found = match phrase.quantity {
             Quantity::Count(count) => {
                 let there: usize = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).sum();
                 if there < count {
-                    self.problem(format!("there are not {count} of \"{}\" here, only {there}", phrase.text), 0.45);
+                    self.problem(
+                        format!("there are not {count} of \"{}\" here, only {there}", phrase.text),
+                        0.45,
+                    );
                 }
                 self.spread(kinds, count.min(there), phrase)
             }
@@ -412,9 +431,9 @@ impl<'a> Discourse<'a> {
     }
 
     fn slices(&mut self) -> Vec<usize> {
-        let last = (0..self.entities.len()).rev().find(|&e| {
-            self.entities[e].kinds.iter().any(|kind| self.scene.affords(kind, "sliceable"))
-        });
+        let last = (0..self.entities.len())
+            .rev()
+            .find(|&e| self.entities[e].kinds.iter().any(|kind| self.scene.affords(kind, "sliceable")));
         if last.is_none() {
             self.problem("it is not said what the slices are of".to_owned(), 0.3);
         }
@@ -445,7 +464,10 @@ impl<'a> Discourse<'a> {
         if chosen.is_empty() {
             self.problem(format!("there is nothing that \"{}\" could mean", phrase.text), 0.3);
         }
-        chosen.into_iter().map(|(kind, name)| self.add(vec![kind], Which::Named(name), &phrase.text)).collect()
+        chosen
+            .into_iter()
+            .map(|(kind, name)| self.add(vec![kind], Which::Named(name), &phrase.text))
+            .collect()
     }
 
     fn pronoun(&mut self, plural: bool, wants: Option<&str>) -> Vec<usize> {
@@ -552,7 +574,8 @@ impl Discourse<'_> {
             }
         }
         let Some((_, _, chosen)) = best else {
-            let (thing, place) = (self.entities[entity].kind().to_owned(), self.entities[place].kind().to_owned());
+            let (thing, place) =
+                (self.entities[entity].kind().to_owned(), self.entities[place].kind().to_owned());
             self.assume(format!("a {place} is not known to take a {thing}"), 0.8);
             return;
         };
@@ -591,7 +614,10 @@ impl Discourse<'_> {
     pub fn adapted_states(&mut self, entity: usize, verb: &super::lexicon::Verb) -> Settings {
         let kind = self.entities[entity].kind().to_owned();
         let mut states = self.possible_states(entity, verb.set.clone());
-        if states.contains_key("isCooked") && self.cooks_in_slices(&kind) && states.insert("isSliced".to_owned(), super::yes()).is_none() {
+        if states.contains_key("isCooked")
+            && self.cooks_in_slices(&kind)
+            && states.insert("isSliced".to_owned(), super::yes()).is_none()
+        {
             self.assume(format!("only slices of the {kind} can be cooked"), 0.99);
         }
         for property in states.keys() {

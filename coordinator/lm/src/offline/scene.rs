@@ -30,11 +30,7 @@ impl<'a> Scene<'a> {
             words.insert(phrase.replace(' ', ""));
             words.extend(phrase.split(' ').map(str::to_owned));
         }
-        Self {
-            objects: objects.iter().map(|object| (object.name.as_str(), object)).collect(),
-            kinds,
-            words,
-        }
+        Self { objects: objects.iter().map(|object| (object.name.as_str(), object)).collect(), kinds, words }
     }
 
     /// The objects of a type, in the order of their numbers.
@@ -54,9 +50,10 @@ impl<'a> Scene<'a> {
 
     /// The object of a name, whatever its case.
     pub fn named(&self, name: &str) -> Option<&'a ObjectView> {
-        self.objects.get(name).copied().or_else(|| {
-            self.objects.values().find(|object| object.name.eq_ignore_ascii_case(name)).copied()
-        })
+        self.objects
+            .get(name)
+            .copied()
+            .or_else(|| self.objects.values().find(|object| object.name.eq_ignore_ascii_case(name)).copied())
     }
 
     /// Whether objects of a type afford something.
@@ -76,7 +73,8 @@ impl<'a> Scene<'a> {
 
     /// Whether a receptacle type is known to take a type.
     pub fn surely_accepts(&self, receptacle: &str, kind: &str) -> bool {
-        self.accepts(receptacle, kind) && self.of_kind(receptacle).iter().any(|object| !object.accepts.is_empty())
+        self.accepts(receptacle, kind)
+            && self.of_kind(receptacle).iter().any(|object| !object.accepts.is_empty())
     }
 
     /// The words of the types' names.
@@ -109,11 +107,10 @@ pub fn is_in_state(object: &ObjectView, states: &Settings) -> bool {
         let holds = object.states.iter().any(|state| state == property);
         match value {
             PropertyValue::Flag(flag) => holds == *flag,
-            PropertyValue::Word(word) => {
-                object.states.iter().any(|state| {
-                    state == word || state.strip_prefix(property.as_str()).is_some_and(|rest| rest.ends_with(word.as_str()))
-                })
-            }
+            PropertyValue::Word(word) => object.states.iter().any(|state| {
+                state == word
+                    || state.strip_prefix(property.as_str()).is_some_and(|rest| rest.ends_with(word.as_str()))
+            }),
         }
     })
 }
