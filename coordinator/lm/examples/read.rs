@@ -38,7 +38,10 @@ fn main() -> Result<(), Failure> {
                 for subtask in &decomposition.subtasks {
                     let goal = serde_json::to_string(&subtask.goal)?;
                     let lasting = if subtask.lasting { "" } else { " (undone later)" };
-                    println!("  {} after {:?}{lasting}: {goal}   [{}]", subtask.id, subtask.after, subtask.text);
+                    println!(
+                        "  {} after {:?}{lasting}: {goal}   [{}]",
+                        subtask.id, subtask.after, subtask.text
+                    );
                 }
                 for assumption in &decomposition.assumptions {
                     println!("  - {assumption}");
@@ -49,7 +52,11 @@ fn main() -> Result<(), Failure> {
                 println!("  not understood: {:?}", clarification.not_understood);
                 for reading in &clarification.readings {
                     for subtask in &reading.subtasks {
-                        println!("    perhaps {:.2} {}", reading.confidence, serde_json::to_string(&subtask.goal)?);
+                        println!(
+                            "    perhaps {:.2} {}",
+                            reading.confidence,
+                            serde_json::to_string(&subtask.goal)?
+                        );
                     }
                 }
             }
@@ -75,7 +82,10 @@ fn objects(folder: &Path, plan: &str) -> Result<Vec<ObjectView>, Failure> {
             objects.push(ObjectView {
                 name: format!("{kind}_{number}"),
                 kind: kind.clone(),
-                affordances: known.filter(|(_, v)| **v == Value::Bool(true)).map(|(k, _)| k.clone()).collect(),
+                affordances: known
+                    .filter(|(_, v)| **v == Value::Bool(true))
+                    .map(|(k, _)| k.clone())
+                    .collect(),
                 accepts: accepted[list]
                     .as_array()
                     .into_iter()

@@ -82,7 +82,8 @@ fn main() -> Result<(), Failure> {
 }
 
 fn fnv(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+    text.bytes()
+        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
 }
 
 /// What is known of types and floor plans.
@@ -114,11 +115,14 @@ impl Facts {
         for kind in layout["object_types"].as_array().into_iter().flatten().filter_map(Value::as_str) {
             if self.affordances[kind]["pickupable"] != Value::Bool(true) && kind != "Glassbottle" {
                 let poses = layout["receptacle_standing_pose"].as_object();
-                let receptacles = poses.map_or(0, |poses| poses.keys().filter(|id| id.split('|').next() == Some(kind)).count());
+                let receptacles = poses
+                    .map_or(0, |poses| poses.keys().filter(|id| id.split('|').next() == Some(kind)).count());
                 counts.insert(kind.to_owned(), receptacles.max(1) as u64);
             }
         }
-        for kind in ["toggle_target", "parent_target"].map(|key| task["goal"][key].as_str().unwrap_or_default()) {
+        for kind in
+            ["toggle_target", "parent_target"].map(|key| task["goal"][key].as_str().unwrap_or_default())
+        {
             if !kind.is_empty() {
                 counts.entry(kind.to_owned()).or_insert(1);
             }
@@ -140,16 +144,31 @@ impl Facts {
 
     fn object(&self, kind: &str, number: u64) -> ObjectView {
         const AFFORDANCES: [&str; 12] = [
-            "pickupable", "receptacle", "openable", "toggleable", "sliceable", "cookable", "breakable",
-            "dirtyable", "canFillWithLiquid", "canBeUsedUp", "isHeatSource", "isColdSource",
+            "pickupable",
+            "receptacle",
+            "openable",
+            "toggleable",
+            "sliceable",
+            "cookable",
+            "breakable",
+            "dirtyable",
+            "canFillWithLiquid",
+            "canBeUsedUp",
+            "isHeatSource",
+            "isColdSource",
         ];
         let known = &self.affordances[kind];
         let mut affordances: Vec<String> =
             AFFORDANCES.iter().filter(|a| known[**a] == Value::Bool(true)).map(|a| (*a).to_owned()).collect();
         let lists = &self.constants["VAL_RECEPTACLE_OBJECTS"];
         let list = if kind.ends_with("Table") { "TableTop" } else { kind };
-        let accepts: Vec<String> =
-            lists[list].as_array().into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect();
+        let accepts: Vec<String> = lists[list]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .filter_map(Value::as_str)
+            .map(str::to_owned)
+            .collect();
         if !accepts.is_empty() && !affordances.iter().any(|a| a == "receptacle") {
             affordances.push("receptacle".to_owned());
         }
@@ -267,7 +286,10 @@ fn judge(answer: &Answer, wanted: &[String], request: &Request) -> (String, Vec<
         Answer::Understood(decomposition) => decomposition,
         Answer::Clarify(clarification) => {
             let reason = clarification.not_understood.first().cloned().unwrap_or_default();
-            return (format!("asks: {}", reason.split('"').next().unwrap_or_default()), clarification.not_understood.clone());
+            return (
+                format!("asks: {}", reason.split('"').next().unwrap_or_default()),
+                clarification.not_understood.clone(),
+            );
         }
     };
     let mut flat = Flattener { request, nodes: BTreeMap::new(), fresh: 0 };

@@ -52,7 +52,12 @@ impl<T> Record<T> {
 }
 
 impl<T: Transport> Transport for Record<T> {
-    fn send(&mut self, body: &Value, deadline: Instant, cancel: &AtomicBool) -> Result<Reply, TransportError> {
+    fn send(
+        &mut self,
+        body: &Value,
+        deadline: Instant,
+        cancel: &AtomicBool,
+    ) -> Result<Reply, TransportError> {
         let result = self.inner.send(body, deadline, cancel);
         if result == Err(TransportError::Cancelled) {
             return result;
@@ -78,7 +83,10 @@ impl Replay {
     /// Reads a cassette; of two answers to one question the later counts.
     pub fn read(path: &Path) -> Result<Self, TransportError> {
         let at = |line: usize, error: String| {
-            TransportError::Cassette(format!("{}:{line}: {error}; record it anew with --lm record:FILE", path.display()))
+            TransportError::Cassette(format!(
+                "{}:{line}: {error}; record it anew with --lm record:FILE",
+                path.display()
+            ))
         };
         let text = std::fs::read_to_string(path).map_err(|error| at(0, error.to_string()))?;
         let mut lines = BTreeMap::new();

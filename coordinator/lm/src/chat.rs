@@ -61,7 +61,8 @@ pub enum TransportError {
 /// deadline and the cancellation are not to be overrun.
 pub trait Transport: Send {
     /// Sends a request.
-    fn send(&mut self, body: &Value, deadline: Instant, cancel: &AtomicBool) -> Result<Reply, TransportError>;
+    fn send(&mut self, body: &Value, deadline: Instant, cancel: &AtomicBool)
+    -> Result<Reply, TransportError>;
 }
 
 /// How firmly the answer's form is asked for; the ladder goes down when a server refuses a rung.
@@ -87,11 +88,24 @@ pub struct ChatModel<T> {
 impl<T: Transport> ChatModel<T> {
     /// A model of that name over a transport, with at most `repairs` answers sent back for repair.
     pub fn new(transport: T, model: String, repairs: u32, seed: u64) -> Self {
-        Self { transport, model, form: Form::Schema, refused: Vec::new(), repairs, seed, usage: Usage::default() }
+        Self {
+            transport,
+            model,
+            form: Form::Schema,
+            refused: Vec::new(),
+            repairs,
+            seed,
+            usage: Usage::default(),
+        }
     }
 
     /// One answer in the firmest form the server takes.
-    fn ask(&mut self, messages: &[Value], deadline: Instant, cancel: &AtomicBool) -> Result<Reply, TransportError> {
+    fn ask(
+        &mut self,
+        messages: &[Value],
+        deadline: Instant,
+        cancel: &AtomicBool,
+    ) -> Result<Reply, TransportError> {
         loop {
             let body = self.body(messages);
             let refusal = match self.transport.send(&body, deadline, cancel) {
@@ -107,7 +121,9 @@ impl<T: Transport> ChatModel<T> {
 
     fn body(&self, messages: &[Value]) -> Value {
         let mut body = json!({"model": self.model, "messages": messages});
-        for (name, value) in [("temperature", json!(0)), ("seed", json!(self.seed % (1 << 31))), ("max_tokens", json!(4096))] {
+        for (name, value) in
+            [("temperature", json!(0)), ("seed", json!(self.seed % (1 << 31))), ("max_tokens", json!(4096))]
+        {
             if !self.refused.contains(&name) {
                 body[name] = value;
             }

@@ -50,7 +50,8 @@ pub fn decode(text: &str, request: &Request) -> Result<Answer, Vec<String>> {
         return Err(vec![format!("the answer has {} bytes; at most {LONGEST} are read", text.len())]);
     }
     let body = json_part(text).ok_or_else(|| vec!["the answer holds no JSON object".to_owned()])?;
-    let wire: Wire = serde_json::from_str(body).map_err(|error| vec![format!("not the format asked for: {error}")])?;
+    let wire: Wire =
+        serde_json::from_str(body).map_err(|error| vec![format!("not the format asked for: {error}")])?;
     if let (Some(question), true) = (&wire.question, wire.subtasks.is_empty()) {
         let question = question.clone();
         return Ok(Answer::Clarify(Clarification { question, ..Clarification::default() }));
@@ -131,7 +132,10 @@ impl<'r> Checker<'r> {
             for (i, entry) in subtask.goal.iter().enumerate() {
                 let place = format!("{}.goal[{i}]", subtask.id);
                 if entry.contains.is_empty() && entry.is.is_empty() {
-                    self.errors.push(format!("{place}: says nothing of {:?}; give \"contains\" or \"is\"", entry.object));
+                    self.errors.push(format!(
+                        "{place}: says nothing of {:?}; give \"contains\" or \"is\"",
+                        entry.object
+                    ));
                 }
                 self.entry(&place, entry, 0);
             }
@@ -176,7 +180,9 @@ impl<'r> Checker<'r> {
         match value {
             PropertyValue::Flag(_) if words.is_empty() => {}
             PropertyValue::Word(word) if words.contains(&word.as_str()) => {}
-            _ if words.is_empty() => self.errors.push(format!("{place}.is.{property}: must be true or false")),
+            _ if words.is_empty() => {
+                self.errors.push(format!("{place}.is.{property}: must be true or false"))
+            }
             _ => self.errors.push(format!("{place}.is.{property}: must be one of {}", words.join(", "))),
         }
     }
@@ -187,7 +193,9 @@ fn nearest(word: &str, known: &BTreeSet<&str>) -> String {
     let letters: Vec<char> = word.to_lowercase().chars().take(64).collect();
     let best = known
         .iter()
-        .map(|known| (damerau_levenshtein(&letters, &known.to_lowercase().chars().collect::<Vec<_>>()), known))
+        .map(|known| {
+            (damerau_levenshtein(&letters, &known.to_lowercase().chars().collect::<Vec<_>>()), known)
+        })
         .min();
     match best {
         Some((distance, known)) if distance <= 2 + letters.len() / 4 => format!("; did you mean {known:?}?"),

@@ -58,7 +58,8 @@ impl Http {
         if left.is_zero() {
             return Err(last(TransportError::Deadline));
         }
-        let (agent, url, key, body) = (self.agent.clone(), self.url.clone(), self.key.clone(), body.to_owned());
+        let (agent, url, key, body) =
+            (self.agent.clone(), self.url.clone(), self.key.clone(), body.to_owned());
         let (sender, receiver) = mpsc::channel();
         std::thread::Builder::new()
             .name("lm-request".to_owned())
@@ -66,7 +67,9 @@ impl Http {
                 // The receiver may be gone by then; the answer is of no use to anyone.
                 let _ = sender.send(exchange(&agent, &url, key.as_deref(), &body, left));
             })
-            .map_err(|error| last(TransportError::Connection(format!("no thread for the request: {error}"))))?;
+            .map_err(|error| {
+                last(TransportError::Connection(format!("no thread for the request: {error}")))
+            })?;
         loop {
             let left = deadline.saturating_duration_since(Instant::now());
             match receiver.recv_timeout(POLL.min(left.max(Duration::from_millis(1)))) {
@@ -77,7 +80,9 @@ impl Http {
                 Err(RecvTimeoutError::Timeout) if cancel.load(Ordering::Relaxed) => {
                     return Err(last(TransportError::Cancelled));
                 }
-                Err(RecvTimeoutError::Timeout) if left.is_zero() => return Err(last(TransportError::Deadline)),
+                Err(RecvTimeoutError::Timeout) if left.is_zero() => {
+                    return Err(last(TransportError::Deadline));
+                }
                 Err(RecvTimeoutError::Timeout) => {}
             }
         }
@@ -101,7 +106,12 @@ fn last(error: TransportError) -> Failure {
 }
 
 impl Transport for Http {
-    fn send(&mut self, body: &Value, deadline: Instant, cancel: &AtomicBool) -> Result<Reply, TransportError> {
+    fn send(
+        &mut self,
+        body: &Value,
+        deadline: Instant,
+        cancel: &AtomicBool,
+    ) -> Result<Reply, TransportError> {
         let body = body.to_string();
         let mut tries = 0;
         loop {
@@ -127,7 +137,13 @@ impl Transport for Http {
     }
 }
 
-fn exchange(agent: &ureq::Agent, url: &str, key: Option<&str>, body: &str, left: Duration) -> Result<Reply, Failure> {
+fn exchange(
+    agent: &ureq::Agent,
+    url: &str,
+    key: Option<&str>,
+    body: &str,
+    left: Duration,
+) -> Result<Reply, Failure> {
     let mut request = agent.post(url).header("content-type", "application/json");
     if let Some(key) = key {
         request = request.header("authorization", format!("Bearer {key}"));
@@ -135,7 +151,13 @@ fn exchange(agent: &ureq::Agent, url: &str, key: Option<&str>, body: &str, left:
     let sent = request.config().timeout_global(Some(left)).build().send(body);
     let mut response = sent.map_err(|error| connection(&error))?;
     let status = response.status().as_u16();
-    let header = |name: &str| response.headers().get(name).and_then(|value| value.to_str().ok()).and_then(|v| v.trim().parse::<f64>().ok());
+    let header = |name: &str| {
+        response
+            .headers()
+            .get(name)
+            .and_then(|value| value.to_str().ok())
+            .and_then(|v| v.trim().parse::<f64>().ok())
+    };
     let wait = header("retry-after-ms").map(|ms| ms / 1000.0).or_else(|| header("retry-after"));
     let wait = wait.filter(|seconds| (0.0..86_400.0).contains(seconds)).map(Duration::from_secs_f64);
     let read = response.body_mut().with_config().limit(LONGEST_BODY).read_to_vec();

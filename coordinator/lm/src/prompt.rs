@@ -56,13 +56,20 @@ fn shorten(text: &str, limit: usize) -> &str {
 fn properties() -> String {
     let parts: Vec<String> = PROPERTIES
         .iter()
-        .map(|(name, words)| if words.is_empty() { format!("{name} (true/false)") } else { format!("{name} ({})", words.join("/")) })
+        .map(|(name, words)| {
+            if words.is_empty() {
+                format!("{name} (true/false)")
+            } else {
+                format!("{name} ({})", words.join("/"))
+            }
+        })
         .collect();
     parts.join(", ")
 }
 
 fn user(request: &Request) -> String {
-    let mut text = format!("Instruction: {}\n\nObjects (name; where; what holds now):\n", request.instruction);
+    let mut text =
+        format!("Instruction: {}\n\nObjects (name; where; what holds now):\n", request.instruction);
     for object in &request.objects {
         let _ = write!(text, "{}", object.name);
         if !object.parents.is_empty() {
@@ -121,7 +128,11 @@ pub fn schema() -> Value {
 fn entry(content: &Value) -> Value {
     let mut properties = serde_json::Map::new();
     for (name, words) in PROPERTIES {
-        let kind = if words.is_empty() { json!({"type": "boolean"}) } else { json!({"type": "string", "enum": words}) };
+        let kind = if words.is_empty() {
+            json!({"type": "boolean"})
+        } else {
+            json!({"type": "string", "enum": words})
+        };
         properties.insert((*name).to_owned(), kind);
     }
     json!({

@@ -55,8 +55,9 @@ pub fn from_spec(spec: &str, options: &Options) -> Result<Box<dyn LanguageModel>
             Ok(Box::new(Fallback::new(chat(record, options)?, offline)))
         }
         Some(("replay", file)) if !file.is_empty() => {
-            let replay = Replay::read(Path::new(file)).map_err(|error| LmError::Configuration(format!("--lm replay: {error}")))?;
-            
+            let replay = Replay::read(Path::new(file))
+                .map_err(|error| LmError::Configuration(format!("--lm replay: {error}")))?;
+
             let recorded = replay.model().map(str::to_owned);
             let options = Options { model: options.model.clone().or(recorded), ..options.clone() };
             Ok(Box::new(Fallback::new(chat(replay, &options)?, offline)))
@@ -83,7 +84,8 @@ fn variable(name: &str) -> Option<String> {
 }
 
 fn http(options: &Options) -> Result<Http, LmError> {
-    let base = options.base_url.clone().or_else(|| variable("OPENAI_BASE_URL")).unwrap_or_else(|| OPENAI.to_owned());
+    let base =
+        options.base_url.clone().or_else(|| variable("OPENAI_BASE_URL")).unwrap_or_else(|| OPENAI.to_owned());
     if !base.starts_with("http://") && !base.starts_with("https://") {
         return Err(LmError::Configuration(format!(
             "the language model's base URL {base:?} is none; give one like http://127.0.0.1:8080/v1"

@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 use lamma_lm::cassette::{Record, Replay};
 use lamma_lm::http::Http;
 use lamma_lm::{
-    Answer, ChatModel, Fallback, LanguageModel, LmError, ObjectView, Offline, Options, Request, RobotView, from_spec,
+    Answer, ChatModel, Fallback, LanguageModel, LmError, ObjectView, Offline, Options, Request, RobotView,
+    from_spec,
 };
 use serde_json::{Value, json};
 
@@ -73,7 +74,8 @@ fn read_request(stream: &mut TcpStream) -> Option<(String, Value)> {
             break (String::from_utf8_lossy(&bytes[..at]).to_lowercase(), bytes[at + 4..].to_vec());
         }
     };
-    let length: usize = head.lines().find_map(|line| line.strip_prefix("content-length:"))?.trim().parse().ok()?;
+    let length: usize =
+        head.lines().find_map(|line| line.strip_prefix("content-length:"))?.trim().parse().ok()?;
     let mut body = rest;
     while body.len() < length {
         let n = stream.read(&mut buffer).ok().filter(|n| *n > 0)?;
@@ -85,7 +87,8 @@ fn read_request(stream: &mut TcpStream) -> Option<(String, Value)> {
 fn act(stream: &mut TcpStream, act: Act) {
     match act {
         Act::Answer(status, headers, body) => {
-            let mut head = format!("HTTP/1.1 {status} X\r\ncontent-length: {}\r\nconnection: close\r\n", body.len());
+            let mut head =
+                format!("HTTP/1.1 {status} X\r\ncontent-length: {}\r\nconnection: close\r\n", body.len());
             for (name, value) in headers {
                 head.push_str(&format!("{name}: {value}\r\n"));
             }
@@ -152,7 +155,10 @@ fn a_good_answer_is_taken_and_accounted_for() {
     let mut model = server.model(0);
     assert_understood(ask(&mut model));
     let usage = model.usage();
-    assert_eq!((usage.requests, usage.prompt_tokens, usage.completion_tokens, usage.estimated), (1, 100, 20, false));
+    assert_eq!(
+        (usage.requests, usage.prompt_tokens, usage.completion_tokens, usage.estimated),
+        (1, 100, 20, false)
+    );
     let (head, body) = &server.requests()[0];
     assert!(head.starts_with("post /v1/chat/completions"), "{head}");
     assert!(head.contains("authorization: bearer secret"), "the key goes into the header");
@@ -176,7 +182,11 @@ fn a_server_without_schemas_is_asked_for_less_and_it_is_remembered() {
 #[test]
 fn a_refused_parameter_is_left_out() {
     let server = Server::start(Box::new(|_, body| {
-        if body.get("temperature").is_some() { refuses(400, "Unsupported parameter: 'temperature'") } else { says(GOOD) }
+        if body.get("temperature").is_some() {
+            refuses(400, "Unsupported parameter: 'temperature'")
+        } else {
+            says(GOOD)
+        }
     }));
     assert_understood(ask(&mut server.model(0)));
     assert_eq!(server.requests()[1].1["response_format"]["type"], "json_schema", "the form stays");
@@ -205,8 +215,9 @@ fn lasting_errors_are_not_tried_again() {
 
 #[test]
 fn a_wait_that_is_longer_than_the_deadline_ends_at_once() {
-    let server =
-        Server::start(Box::new(|_, _| Act::Answer(429, vec![("retry-after", "3600".to_owned())], Vec::new())));
+    let server = Server::start(Box::new(|_, _| {
+        Act::Answer(429, vec![("retry-after", "3600".to_owned())], Vec::new())
+    }));
     let started = Instant::now();
     assert!(matches!(ask(&mut server.model(3)), Err(LmError::Endpoint(_))));
     assert!(started.elapsed() < Duration::from_secs(15));
@@ -242,7 +253,10 @@ fn what_is_wrong_is_sent_back_and_the_tries_are_bounded() {
     let server = Server::start(Box::new(move |n, _| if n == 1 { says(&answer) } else { says(GOOD) }));
     assert_understood(ask(&mut server.model(0)));
     let sent_back = server.requests()[1].1["messages"].to_string();
-    assert!(sent_back.contains("did you mean \\\\\\\"Apple\\\\\\\"?") || sent_back.contains("did you mean"), "{sent_back}");
+    assert!(
+        sent_back.contains("did you mean \\\\\\\"Apple\\\\\\\"?") || sent_back.contains("did you mean"),
+        "{sent_back}"
+    );
 
     let server = Server::start(Box::new(move |_, _| says(&unknown)));
     match ask(&mut server.model(0)) {
@@ -292,7 +306,11 @@ fn the_embedded_default_steps_in_and_says_so() {
     let mut model = Fallback::new(server.model(0), Offline::new().unwrap());
     match ask(&mut model) {
         Ok(Answer::Understood(decomposition)) => {
-            assert!(decomposition.assumptions[0].contains("embedded default"), "{:?}", decomposition.assumptions);
+            assert!(
+                decomposition.assumptions[0].contains("embedded default"),
+                "{:?}",
+                decomposition.assumptions
+            );
             assert_eq!(decomposition.subtasks.len(), 1);
         }
         other => panic!("{other:?}"),
@@ -308,7 +326,10 @@ fn a_cassette_plays_back_what_was_recorded() {
     let record = Record::new(server.http(0), &path).unwrap();
     let recorded = ask(&mut ChatModel::new(record, "tiny".to_owned(), 2, 1)).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
-    assert!(!text.contains("secret") && !text.contains("127.0.0.1"), "neither key nor endpoint is written down");
+    assert!(
+        !text.contains("secret") && !text.contains("127.0.0.1"),
+        "neither key nor endpoint is written down"
+    );
 
     let replay = Replay::read(&path).unwrap();
     let mut model = ChatModel::new(replay, "tiny".to_owned(), 2, 1);

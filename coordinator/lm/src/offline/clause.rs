@@ -42,6 +42,7 @@ impl<'a> Parser<'a> {
         // A clause that waits for the one said after it.
         let mut delayed: Option<Clause<'a>> = None;
         while self.position < self.words.len() && clauses.len() < MOST_CLAUSES {
+            let said_from = self.position;
             let opening = self.opening(clauses.is_empty() && delayed.is_none());
             let start = self.position;
             if start >= self.words.len() {
@@ -49,7 +50,8 @@ impl<'a> Parser<'a> {
             }
             let clause = self.clause(&opening, clauses.last());
             self.position = self.position.max(start + 1);
-            let Some(clause) = clause else { continue };
+            let Some(mut clause) = clause else { continue };
+            clause.words = self.words[said_from..self.position].to_vec();
             if opening.after_next && delayed.is_none() {
                 delayed = Some(clause);
             } else if let (true, Some(previous)) = (opening.before_previous, clauses.last_mut()) {
@@ -112,8 +114,14 @@ impl<'a> Parser<'a> {
                 self.position += length;
                 continue;
             }
+            let polite = self.lexicon.longest_small("polite", &rest);
+            if let Some(length) = polite.filter(|&length| length > 1) {
+                self.position += length;
+                continue;
+            }
             match word {
-                "," | "." | "and" | "so" | "but" | "plus" | "first" | "firstly" | "to" | "you" | "i" | "we" => {}
+                "," | "." | "and" | "so" | "but" | "plus" | "first" | "firstly" | "to" | "you" | "i"
+                | "we" => {}
                 "before" => {
                     if first {
                         opening.after_next = true;
@@ -133,16 +141,13 @@ impl<'a> Parser<'a> {
                     self.position += 1;
                 }
                 "dont" | "never" | "without" | "not" | "avoid" => opening.negated = true,
-                _ => {
-                    let polite = self.lexicon.longest_small("polite", &rest);
-                    match polite {
-                        Some(length) => {
-                            self.position += length;
-                            continue;
-                        }
-                        None => break,
+                _ => match polite {
+                    Some(length) => {
+                        self.position += length;
+                        continue;
                     }
-                }
+                    None => break,
+                },
             }
             self.position += 1;
         }
@@ -154,11 +159,12 @@ impl<'a> Parser<'a> {
         let word = self.peek()?;
         let candidates = self.lexicon.verbs(word);
         let behind: Vec<&str> = self.rest().into_iter().skip(1).collect();
-        let (form, particles, _) = candidates.iter().find(|(_, particles, verb)| {
+        let contiguous = candidates.iter().find(|(_, particles, verb)| {
             particles.len() <= behind.len()
                 && particles.iter().zip(&behind).all(|(a, b)| a == b)
                 && self.object_may_fit(particles, verb)
-        })?;
+        });
+        let Some((form, particles, _)) = contiguous else { return self.verb_apart(&candidates) };
         let (form, length) = (*form, particles.len());
         let verbs = candidates
             .iter()
@@ -166,6 +172,25 @@ impl<'a> Parser<'a> {
             .map(|(_, _, verb)| *verb)
             .collect();
         Some((form, verbs, length + 1))
+    }
+
+    /// "switch the light on": a verb that needs its particle, which stands behind the object.
+    fn verb_apart(
+        &self,
+        candidates: &[(VerbForm, &'a [String], &'a Verb)],
+    ) -> Option<(VerbForm, Vec<&'a Verb>, usize)> {
+        let behind: Vec<&str> = self.words[self.position + 1..]
+            .iter()
+            .map(String::as_str)
+            .take(8)
+            .take_while(|word| ![".", ",", "then"].contains(word))
+            .collect();
+        let (form, particles, _) = candidates
+            .iter()
+            .find(|(_, particles, _)| particles.len() == 1 && behind.contains(&particles[0].as_str()))?;
+        let verbs =
+            candidates.iter().filter(|(_, other, _)| other == particles).map(|(_, _, verb)| *verb).collect();
+        Some((*form, verbs, 1))
     }
 
     /// "put on the light" switches; "put on the table" puts: what follows decides.
@@ -193,7 +218,9 @@ impl<'a> Parser<'a> {
     /// Whether a clause rather than another noun phrase starts at the position.
     pub(super) fn clause_starts_here(&self, first: bool) -> bool {
         let Some(word) = self.peek() else { return true };
-        if [".", "then", "before", "after", "while", "when", "once", "until", "but", "dont", "without"].contains(&word) {
+        if [".", "then", "before", "after", "while", "when", "once", "until", "but", "dont", "without"]
+            .contains(&word)
+        {
             return true;
         }
         let rest = self.rest();
@@ -206,9 +233,12 @@ impl<'a> Parser<'a> {
             return self.lexicon.longest_small("polite", &rest).is_some();
         };
         let next = self.word_at(length);
-        let determined = next.is_some_and(|next| is_determiner(next) || ["it", "them", "everything"].contains(&next));
+        let determined =
+            next.is_some_and(|next| is_determiner(next) || ["it", "them", "everything"].contains(&next));
         let noun = self.longest_noun();
-        if noun.as_ref().is_some_and(|(_, _, noun_length)| *noun_length > length) {
+        if noun.as_ref().is_some_and(|(_, _, noun_length)| *noun_length > length)
+            && !(first && self.noun_begins(length))
+        {
             return false;
         }
         if form == VerbForm::Past {
@@ -268,6 +298,9 @@ impl<'a> Parser<'a> {
             clause.unknown.push(word.to_owned());
             self.position += 1;
         }
+        if clause.verbs.is_empty() {
+            self.particle_alone(&mut clause, previous);
+        }
         self.wants_place = clause.verbs.iter().any(|verb| verb.act == Act::Place);
         self.arguments(&mut clause, start);
         self.wants_place = false;
@@ -281,8 +314,26 @@ impl<'a> Parser<'a> {
             clause.verb_text.clone_from(&previous.verb_text);
         }
         clause.text = self.text_between(start, self.position);
-        clause.words = self.words[start..self.position].to_vec();
         (!clause.text.is_empty()).then_some(clause)
+    }
+
+    /// "turn it on and then off": the verb is that of the clause before.
+    fn particle_alone(&mut self, clause: &mut Clause<'a>, previous: Option<&Clause<'a>>) {
+        let (Some(previous), Some(word)) = (previous, self.peek()) else { return };
+        let first = previous.verb_text.split(' ').next().unwrap_or_default();
+        let verbs: Vec<&Verb> = self
+            .lexicon
+            .verbs(first)
+            .into_iter()
+            .filter(|(_, particles, _)| particles.len() == 1 && particles[0] == word)
+            .map(|(_, _, verb)| verb)
+            .collect();
+        if !verbs.is_empty() && self.word_at(1).is_none_or(|next| !is_determiner(next)) {
+            clause.verbs = verbs;
+            clause.verb_text = format!("{first} {word}");
+            clause.unknown.clear();
+            self.position += 1;
+        }
     }
 
     /// "with a card in hand, turn on the lamp": places said before the verb.
@@ -363,7 +414,11 @@ impl<'a> Parser<'a> {
             "then" | "but" | "until" | "so" | "dont" => self.position > start,
             "while" | "before" | "whilst" | "once" | "when" | "without" => self.position > start,
             "after" => self.position > start && next != "that",
-            "as" => self.position > start && !self.rest().starts_with(&["as", "well"]) && self.ahead(1).clause_starts_here(false),
+            "as" => {
+                self.position > start
+                    && !self.rest().starts_with(&["as", "well"])
+                    && self.ahead(1).clause_starts_here(false)
+            }
             // "to turn it on" begins a clause; "to the sink" does not.
             "to" | "by" => {
                 self.position > start
@@ -371,11 +426,7 @@ impl<'a> Parser<'a> {
                     && self.ahead(1).verbs_here().is_some()
                     && !clause.verbs.is_empty()
             }
-            _ => {
-                self.position > start
-                    && !clause.objects.is_empty()
-                    && self.verb_reads_as_clause()
-            }
+            _ => self.position > start && !clause.objects.is_empty() && self.verb_reads_as_clause(),
         }
     }
 
@@ -401,7 +452,8 @@ impl<'a> Parser<'a> {
 
     /// After "and": whether what follows is "NP in NP", to be read with the same verb.
     fn same_verb_again(&self, clause: &Clause<'a>) -> bool {
-        if clause.verbs.is_empty() || clause.objects.is_empty() || clause.places.is_empty() {
+        let complete = !clause.places.is_empty() || !clause.complement.is_empty();
+        if clause.verbs.is_empty() || clause.objects.is_empty() || !complete {
             return false;
         }
         let mut ahead = self.ahead(0);
@@ -409,7 +461,15 @@ impl<'a> Parser<'a> {
         if ahead.phrases(0).is_empty() {
             return false;
         }
-        preposition(&ahead.rest()).is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
+        if !clause.complement.is_empty() {
+            let rest = ahead.rest();
+            let states = |word: &&str| {
+                ["is", "are", "stays", "stay"].contains(word) || self.lexicon.adjective(&[word]).is_some()
+            };
+            return rest.first().is_some_and(states);
+        }
+        preposition(&ahead.rest())
+            .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
             || ahead.complements_follow()
     }
 
@@ -436,7 +496,8 @@ impl<'a> Parser<'a> {
             return false;
         }
         let free = next.is_none_or(|next| {
-            [",", ".", "and", "then", "before", "after", "while", "but", "again", "please", "so"].contains(&next)
+            [",", ".", "and", "then", "before", "after", "while", "but", "again", "please", "so"]
+                .contains(&next)
                 || preposition(&[next]).is_some()
                 || self.lexicon.is_small("polite", &[next])
         });
@@ -455,8 +516,12 @@ impl<'a> Parser<'a> {
         if with_particle.is_empty() || clause.verb_text.contains(' ') {
             return false;
         }
-        if preposition(&[word]).is_some() && next.is_some_and(|n| preposition(&[n]).is_none() && n != "," && n != "." && n != "and") {
-            let known_end = next.is_some_and(|n| is_function_word(n) && !is_determiner(n) || self.lexicon.is_small("polite", &[n]));
+        if preposition(&[word]).is_some()
+            && next.is_some_and(|n| preposition(&[n]).is_none() && n != "," && n != "." && n != "and")
+        {
+            let known_end = next.is_some_and(|n| {
+                is_function_word(n) && !is_determiner(n) || self.lexicon.is_small("polite", &[n])
+            });
             if !known_end {
                 return false;
             }
@@ -491,7 +556,28 @@ impl<'a> Parser<'a> {
             return false;
         }
         let start = self.position;
-        while matches!(self.peek(), Some("is" | "are" | "be" | "being" | "stay" | "stays" | "remain" | "remains" | "were" | "was" | "get" | "gets" | "all" | "to" | "should" | "must" | "completely" | "fully")) {
+        while matches!(
+            self.peek(),
+            Some(
+                "is" | "are"
+                    | "be"
+                    | "being"
+                    | "stay"
+                    | "stays"
+                    | "remain"
+                    | "remains"
+                    | "were"
+                    | "was"
+                    | "get"
+                    | "gets"
+                    | "all"
+                    | "to"
+                    | "should"
+                    | "must"
+                    | "completely"
+                    | "fully"
+            )
+        ) {
             if self.peek() == Some("to") && !matches!(self.word_at(1), Some("be" | "stay" | "remain")) {
                 break;
             }
@@ -508,7 +594,10 @@ impl<'a> Parser<'a> {
                     || preposition(&[next]).is_some() && self.position > start
             });
             let particle = self.position == start && preposition(&rest[..length]).is_some();
-            if !ends || (particle && clause.verbs.iter().all(|verb| verb.act != Act::Keep && verb.act != Act::Place)) {
+            if !ends
+                || (particle
+                    && clause.verbs.iter().all(|verb| verb.act != Act::Keep && verb.act != Act::Place))
+            {
                 continue;
             }
             for (property, value) in &adjective.set {
@@ -546,6 +635,10 @@ impl<'a> Parser<'a> {
             object.with.push(phrase);
             return true;
         }
+        let mut phrase = phrase;
+        if let (false, Some(object)) = (phrase.except.is_empty(), clause.objects.last_mut()) {
+            object.except.append(&mut phrase.except);
+        }
         clause.places.push(Place::new(relation, &self.words[start], phrase));
         self.more_places(clause, relation);
         true
@@ -563,7 +656,8 @@ impl<'a> Parser<'a> {
                 self.position = start;
                 return;
             };
-            let another_pair = relation != Relation::From && preposition(&self.rest()).is_some() || matches!(self.peek(), Some("on" | "off"));
+            let another_pair = relation != Relation::From && preposition(&self.rest()).is_some()
+                || matches!(self.peek(), Some("on" | "off"));
             if another_pair {
                 self.position = start;
                 return;

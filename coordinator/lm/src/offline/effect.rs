@@ -36,6 +36,8 @@ pub struct Interpreter<'d, 'a> {
     pub facts: Vec<Fact>,
     /// Whether something is held up to be looked at, so that a light is a lamp.
     pub lamp_wanted: bool,
+    /// Whether some clause switches something on.
+    switches_on: bool,
     clause: usize,
 }
 
@@ -54,7 +56,10 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 })
         });
         let lamp_wanted = clauses.iter().any(holds) && !sets_down;
-        Self { discourse, facts: Vec::new(), lamp_wanted, clause: 0 }
+        let switches_on = clauses
+            .iter()
+            .any(|clause| clause.verbs.iter().any(|verb| verb.set.get("isToggled") == Some(&super::yes())));
+        Self { discourse, facts: Vec::new(), lamp_wanted, switches_on, clause: 0 }
     }
 
     /// The clause that facts are added for from now on.
@@ -67,7 +72,8 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         self.clause = index;
         let mut spoken = Spoken::default();
         if clause.negated {
-            self.discourse.assume(format!("\"{}\" is kept to by doing nothing of the kind", clause.text), 0.95);
+            self.discourse
+                .assume(format!("\"{}\" is kept to by doing nothing of the kind", clause.text), 0.95);
         } else if let Some(verb) = self.choose(clause) {
             spoken = match verb.act {
                 Act::Go => Spoken::default(),
@@ -81,7 +87,16 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 Act::Empty => self.empty(clause),
             };
         } else if !clause.complement.is_empty() {
-            spoken = self.keep(clause);
+            // "the lamp should be off" asks for it; "the lamp is off" only says so.
+            if clause
+                .words
+                .iter()
+                .any(|word| ["should", "must", "needs", "need", "shall", "be"].contains(&word.as_str()))
+            {
+                spoken = self.keep(clause);
+            } else {
+                self.discourse.problem(format!("it is not said what to do about \"{}\"", clause.text), 0.3);
+            }
         } else if !clause.objects.is_empty() || !clause.unknown.is_empty() {
             self.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.25);
         }
@@ -120,9 +135,14 @@ impl<'d, 'a> Interpreter<'d, 'a> {
     }
 
     pub(super) fn add(&mut self, entity: usize, change: Change) {
-        let fact = Fact { clause: self.clause, entity, change };
-        if !self.facts.contains(&fact) {
-            self.facts.push(fact);
+        // What is so already is not said twice; what was changed in between is.
+        let last = self
+            .facts
+            .iter()
+            .rev()
+            .find(|fact| fact.entity == entity && about_the_same(&fact.change, &change));
+        if last.is_none_or(|last| last.change != change) {
+            self.facts.push(Fact { clause: self.clause, entity, change });
         }
     }
 
@@ -140,7 +160,8 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 .into_iter()
                 .filter(|(property, _)| {
                     !self.facts.iter().any(|fact| {
-                        fact.entity == entity && matches!(&fact.change, Change::State(known, _) if known == property)
+                        fact.entity == entity
+                            && matches!(&fact.change, Change::State(known, _) if known == property)
                     })
                 })
                 .collect();
@@ -166,7 +187,13 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             }
         }
         if clause.objects.is_empty() {
-            let many = self.discourse.spoken.iter().rev().find(|s| !s.objects.is_empty()).is_some_and(|s| s.objects.len() > 1);
+            let many = self
+                .discourse
+                .spoken
+                .iter()
+                .rev()
+                .find(|s| !s.objects.is_empty())
+                .is_some_and(|s| s.objects.len() > 1);
             let pronoun = Phrase::bare(Head::Pronoun { plural: many }, "it");
             found = self.discourse.mention(&pronoun, at, wants);
         }
@@ -238,7 +265,12 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             spoken.places.extend(lamps);
             return spoken;
         }
-        let at: Vec<Place> = clause.places.iter().filter(|p| !matches!(p.relation, Relation::With | Relation::For)).cloned().collect();
+        let at: Vec<Place> = clause
+            .places
+            .iter()
+            .filter(|p| !matches!(p.relation, Relation::With | Relation::For))
+            .cloned()
+            .collect();
         let objects = self.objects(clause, &at, Some("pickupable"));
         self.take(&objects);
         let places = self.places_spoken_of(&clause.places);
@@ -303,9 +335,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
     }
 
     fn set(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
-        let is_tool = |place: &Place| {
-            matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| verb.tools.contains(kind)))
-        };
+        let is_tool = |place: &Place| matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| verb.tools.contains(kind)));
         let at: Vec<Place> = clause
             .places
             .iter()
@@ -331,7 +361,8 @@ impl<'d, 'a> Interpreter<'d, 'a> {
     fn put_down_tools(&mut self, verb: &Verb) {
         let entities = &self.discourse.entities;
         self.facts.retain(|fact| {
-            fact.change != Change::Held || !entities[fact.entity].kinds.iter().any(|kind| verb.tools.contains(kind))
+            fact.change != Change::Held
+                || !entities[fact.entity].kinds.iter().any(|kind| verb.tools.contains(kind))
         });
     }
 
@@ -365,7 +396,9 @@ impl<'d, 'a> Interpreter<'d, 'a> {
     fn fill(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
         let liquid_of = |phrase: &Phrase| match &phrase.head {
             Head::Liquid(liquid) => Some(liquid.clone()),
-            Head::Noun(noun) if ["water", "wine", "coffee"].contains(&noun.word.as_str()) => Some(noun.word.clone()),
+            Head::Noun(noun) if ["water", "wine", "coffee"].contains(&noun.word.as_str()) => {
+                Some(noun.word.clone())
+            }
             _ => None,
         };
         let said = clause
@@ -381,13 +414,17 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             fill.objects = clause
                 .places
                 .iter()
-                .filter(|place| matches!(place.relation, Relation::In | Relation::To) && liquid_of(&place.phrase).is_none())
+                .filter(|place| {
+                    matches!(place.relation, Relation::In | Relation::To)
+                        && liquid_of(&place.phrase).is_none()
+                })
                 .map(|place| place.phrase.clone())
                 .collect();
         } else {
             fill.objects = vessels;
         }
-        let solid = clause.objects.iter().any(|phrase| phrase.with.iter().any(|with| liquid_of(with).is_none()));
+        let solid =
+            clause.objects.iter().any(|phrase| phrase.with.iter().any(|with| liquid_of(with).is_none()));
         let objects = self.objects(&fill, &[], Some("canFillWithLiquid"));
         if said.is_none() && solid {
             return Spoken { objects, ..Spoken::default() };
@@ -414,6 +451,15 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             }
         }
         Spoken { objects, ..Spoken::default() }
+    }
+}
+
+/// Whether one change can undo the other.
+fn about_the_same(a: &Change, b: &Change) -> bool {
+    match (a, b) {
+        (Change::State(a, _), Change::State(b, _)) => a == b,
+        (Change::State(..), _) | (_, Change::State(..)) => false,
+        _ => true,
     }
 }
 

@@ -13,6 +13,16 @@ use crate::Subtask;
 /// Contents within contents go no deeper than this.
 const DEEPEST: usize = 4;
 
+/// A thing that stays in the device it was treated with, when nothing else is said.
+pub struct Stay {
+    /// The clause of the treatment.
+    pub clause: usize,
+    /// The thing.
+    pub entity: usize,
+    /// The type of the device.
+    pub device: String,
+}
+
 /// Turns the facts of clauses into sub-tasks.
 pub struct Emitter<'e, 'a> {
     discourse: &'e Discourse<'a>,
@@ -24,18 +34,20 @@ pub struct Emitter<'e, 'a> {
 impl<'e, 'a> Emitter<'e, 'a> {
     /// Completes the facts (what is chilled stays in the fridge, what is put down is not held) and finds
     /// out which of them last.
-    pub fn new(discourse: &'e mut Discourse<'a>, mut facts: Vec<Fact>, chilled: &[(usize, usize)]) -> Self {
-        for &(clause, entity) in chilled {
-            let placed = facts.iter().any(|fact| {
-                fact.entity == entity && matches!(fact.change, Change::Inside(_) | Change::Held)
-            });
+    pub fn new(discourse: &'e mut Discourse<'a>, mut facts: Vec<Fact>, stays: &[Stay]) -> Self {
+        for Stay { clause, entity, device } in stays {
+            let (clause, entity) = (*clause, *entity);
+            let placed = facts
+                .iter()
+                .any(|fact| fact.entity == entity && matches!(fact.change, Change::Inside(_) | Change::Held));
             let kind = discourse.entities[entity].kind().to_owned();
-            if !placed && discourse.scene.accepts("Fridge", &kind) {
-                discourse.assume(format!("the {kind} stays in the Fridge that chills it"), 0.98);
-                let place = discourse.place_of_kind("Fridge");
+            if !placed && discourse.scene.accepts(device, &kind) {
+                discourse.assume(format!("the {kind} stays in the {device}"), 0.98);
+                let place = discourse.place_of_kind(device);
                 facts.push(Fact { clause, entity, change: Change::Inside(place) });
             }
         }
+        imply_purpose(discourse, &mut facts);
         // What is picked up only to be put down is not held.
         let facts: Vec<Fact> = (0..facts.len())
             .filter(|&i| {
@@ -79,7 +91,12 @@ impl<'e, 'a> Emitter<'e, 'a> {
     }
 
     /// The sub-tasks that must be done before a clause.
-    fn after(&self, index: usize, clauses: &[Clause<'_>], numbers: &BTreeMap<usize, Vec<String>>) -> Vec<String> {
+    fn after(
+        &self,
+        index: usize,
+        clauses: &[Clause<'_>],
+        numbers: &BTreeMap<usize, Vec<String>>,
+    ) -> Vec<String> {
         let mut found = Vec::new();
         for earlier in 0..index {
             let stated = clauses[earlier + 1..=index].iter().any(|clause| clause.link == Link::Then);
@@ -129,7 +146,8 @@ impl<'e, 'a> Emitter<'e, 'a> {
                     let contents = self.contents(*entity, clause, 0);
                     let at = self.entry(&mut entries, *place);
                     for content in contents {
-                        if !matches!(&content, Content::Named(name) if entries[at].1.contains.iter().any(|c| matches!(c, Content::Named(n) if n == name)) && self.is_name(name)) {
+                        if !matches!(&content, Content::Named(name) if entries[at].1.contains.iter().any(|c| matches!(c, Content::Named(n) if n == name)) && self.is_name(name))
+                        {
                             entries[at].1.contains.push(content);
                         }
                     }
@@ -181,7 +199,11 @@ impl<'e, 'a> Emitter<'e, 'a> {
         entry.is = self.states(entity, clause);
         if depth < DEEPEST {
             for (i, fact) in self.facts.iter().enumerate() {
-                if fact.change == Change::Inside(entity) && fact.clause <= clause && self.lasting[i] && fact.entity != entity {
+                if fact.change == Change::Inside(entity)
+                    && fact.clause <= clause
+                    && self.lasting[i]
+                    && fact.entity != entity
+                {
                     entry.contains.extend(self.contents(fact.entity, clause, depth + 1));
                 }
             }
@@ -191,7 +213,12 @@ impl<'e, 'a> Emitter<'e, 'a> {
             return objects
                 .iter()
                 .map(|object| {
-                    content(GoalEntry { object: object.name.clone(), all: false, same: None, ..entry.clone() })
+                    content(GoalEntry {
+                        object: object.name.clone(),
+                        all: false,
+                        same: None,
+                        ..entry.clone()
+                    })
                 })
                 .collect();
         }
@@ -209,6 +236,38 @@ impl<'e, 'a> Emitter<'e, 'a> {
             }
         }
         states
+    }
+}
+
+/// What is put into a fridge or a microwave only to be taken out again is to be cold or hot.
+fn imply_purpose(discourse: &mut Discourse<'_>, facts: &mut Vec<Fact>) {
+    for i in 0..facts.len() {
+        let Fact { clause, entity, change: Change::Inside(place) } = facts[i] else { continue };
+        let device = discourse.entities[place].kind().to_owned();
+        let scene = discourse.scene;
+        let word = match (scene.affords(&device, "isColdSource"), scene.affords(&device, "isHeatSource")) {
+            (true, _) => "Cold",
+            (_, true) if scene.affords(&device, "openable") => "Hot",
+            _ => continue,
+        };
+        let of_it = |fact: &&Fact| fact.entity == entity;
+        let leaves = facts[i + 1..].iter().filter(of_it).any(|fact| {
+            matches!(fact.change, Change::Inside(other) if other != place) || fact.change == Change::Held
+        });
+        let stated = facts
+            .iter()
+            .filter(of_it)
+            .any(|fact| matches!(&fact.change, Change::State(p, _) if p == "temperature"));
+        if leaves && !stated {
+            let kind = discourse.entities[entity].kind().to_owned();
+            discourse
+                .assume(format!("the {kind} is put into the {device} to get {}", word.to_lowercase()), 0.9);
+            let value = PropertyValue::Word(word.to_owned());
+            facts.insert(
+                i + 1,
+                Fact { clause, entity, change: Change::State("temperature".to_owned(), value) },
+            );
+        }
     }
 }
 
@@ -247,7 +306,8 @@ fn lasts(facts: &[Fact], index: usize, discourse: &Discourse<'_>) -> bool {
 /// Removes marks that tie nothing: a mark on one entry alone.
 fn drop_lonely_marks(subtasks: &mut [Subtask]) {
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
-    let mut entries: Vec<&mut GoalEntry> = subtasks.iter_mut().flat_map(|subtask| &mut subtask.goal).collect();
+    let mut entries: Vec<&mut GoalEntry> =
+        subtasks.iter_mut().flat_map(|subtask| &mut subtask.goal).collect();
     for entry in &mut entries {
         visit(entry, &mut |entry| {
             if let Some(mark) = &entry.same {

@@ -157,8 +157,7 @@ impl Lexicon {
     /// The lexicon that is built in.
     pub fn embedded() -> Result<Self, LmError> {
         let mut lexicon = Self::default();
-        for (name, text) in
-            [("nouns", NOUNS), ("verbs", VERBS), ("words", WORDS), ("situations", SITUATIONS)]
+        for (name, text) in [("nouns", NOUNS), ("verbs", VERBS), ("words", WORDS), ("situations", SITUATIONS)]
         {
             lexicon.extend(&format!("the built-in lexicon ({name}.toml)"), text)?;
         }
@@ -270,9 +269,9 @@ impl Lexicon {
     fn looks_plural(&self, joined: &str) -> bool {
         let entry = self.nouns.get(joined);
         entry.is_some_and(|noun| noun.class && joined.ends_with('s') && !joined.ends_with("ss"))
-            || inflect::singulars(joined)
-                .iter()
-                .any(|s| self.nouns.get(s).is_some_and(|single| entry.is_none_or(|e| e.kinds != single.kinds)))
+            || inflect::singulars(joined).iter().any(|s| {
+                self.nouns.get(s).is_some_and(|single| entry.is_none_or(|e| e.kinds != single.kinds))
+            })
     }
 
     /// The verbs a word may begin, with their particles, the particle-rich first.

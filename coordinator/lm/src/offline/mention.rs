@@ -27,6 +27,8 @@ pub struct Entity {
     pub which: Which,
     /// In words.
     pub text: String,
+    /// The noun it was named by.
+    pub noun: String,
     /// States the words ask for.
     pub asked: Settings,
     /// What the words say it holds.
@@ -114,6 +116,9 @@ impl<'a> Discourse<'a> {
         let contents: Vec<usize> =
             if found.len() == 1 { self.contents(found[0], &phrase.with) } else { Vec::new() };
         for &entity in &found {
+            if let (Head::Noun(noun), true) = (&phrase.head, self.entities[entity].noun.is_empty()) {
+                self.entities[entity].noun.clone_from(&noun.word);
+            }
             self.entities[entity].asked.extend(phrase.states.clone());
             for &content in &contents {
                 if !self.entities[entity].holds.contains(&content) {
@@ -137,7 +142,8 @@ impl<'a> Discourse<'a> {
             let fitting: Vec<String> = holders
                 .iter()
                 .filter(|kind| {
-                    scene.affords(kind, "pickupable") && noun.kinds.iter().any(|content| scene.accepts(kind, content))
+                    scene.affords(kind, "pickupable")
+                        && noun.kinds.iter().any(|content| scene.accepts(kind, content))
                 })
                 .cloned()
                 .collect();
@@ -150,7 +156,9 @@ impl<'a> Discourse<'a> {
             narrowed.head = Head::Noun(Noun {
                 kinds: kinds
                     .iter()
-                    .filter(|content| scene.has(content) && fitting.iter().any(|kind| scene.accepts(kind, content)))
+                    .filter(|content| {
+                        scene.has(content) && fitting.iter().any(|kind| scene.accepts(kind, content))
+                    })
                     .cloned()
                     .collect(),
                 ..noun.clone()
@@ -169,6 +177,7 @@ impl<'a> Discourse<'a> {
             kinds,
             which,
             text: text.to_owned(),
+            noun: String::new(),
             asked: Settings::new(),
             holds: Vec::new(),
         });
@@ -188,6 +197,10 @@ impl<'a> Discourse<'a> {
     }
 
     fn noun(&mut self, noun: &Noun, phrase: &Phrase, at: &[Place], wants: Option<&str>) -> Vec<usize> {
+        if noun.word == "water" && wants != Some("toggleable") {
+            self.problem("it is not said what the water is to be in".to_owned(), 0.3);
+            return Vec::new();
+        }
         if let Some(known) = self.spoken_of_before(noun, phrase) {
             return known;
         }
@@ -195,6 +208,12 @@ impl<'a> Discourse<'a> {
         if kinds.is_empty() {
             self.problem(format!("there is no {} here", noun.word), 0.2);
             return Vec::new();
+        }
+        if let (false, Some(own)) = (noun.class, noun.kinds.first())
+            && *own != kinds[0]
+            && super::lexicon::squash(own) == super::lexicon::squash(&noun.word)
+        {
+            self.assume(format!("there is no {} here; a {} is taken for it", noun.word, kinds[0]), 0.9);
         }
         if let Some(wants) = wants {
             let able: Vec<String> = kinds.iter().filter(|kind| self.affords(kind, wants)).cloned().collect();
@@ -226,7 +245,7 @@ impl<'a> Discourse<'a> {
     /// The same words again mean the same thing, unless they say "another" or "a".
     fn spoken_of_before(&self, noun: &Noun, phrase: &Phrase) -> Option<Vec<usize>> {
         let sliced_again = phrase.states.contains_key("isSliced")
-            && self.entities.iter().any(|e| e.asked.contains_key("isSliced") && overlaps(e, noun));
+            && self.entities.iter().any(|e| e.asked.contains_key("isSliced") && names(noun, e, self.scene));
         if phrase.other
             || noun.class && phrase.quantity != Quantity::One && !phrase.definite
             || (phrase.indefinite && !sliced_again)
@@ -237,7 +256,7 @@ impl<'a> Discourse<'a> {
         for spoken in self.spoken.iter().rev() {
             for group in [&spoken.objects, &spoken.places] {
                 let known: Vec<usize> =
-                    group.iter().copied().filter(|&e| overlaps(&self.entities[e], noun)).collect();
+                    group.iter().copied().filter(|&e| names(noun, &self.entities[e], self.scene)).collect();
                 let wanted_one = phrase.quantity == Quantity::One && known.len() == 1;
                 let wanted_all = phrase.quantity == Quantity::All && phrase.definite && known.len() > 1;
                 if wanted_one || wanted_all {
@@ -288,7 +307,9 @@ impl<'a> Discourse<'a> {
             }
             let fits = |object: &&&ObjectView| {
                 is_in_state(object, &phrase.selects)
-                    && (!phrase.definite || is_in_state(object, &phrase.states) || phrase.states.contains_key("isDirty"))
+                    && (!phrase.definite
+                        || is_in_state(object, &phrase.states)
+                        || phrase.states.contains_key("isDirty"))
                     && phrase.at.iter().chain(at).all(|place| self.is_at(object, place))
             };
             let some: Vec<&ObjectView> = all.iter().filter(fits).copied().collect();
@@ -323,7 +344,10 @@ impl<'a> Discourse<'a> {
             None => {
                 let there: usize = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).sum();
                 if there < count {
-                    self.problem(format!("there are not {count} of \"{}\" here, only {there}", phrase.text), 0.45);
+                    self.problem(
+                        format!("there are not {count} of \"{}\" here, only {there}", phrase.text),
+                        0.45,
+                    );
                 }
                 return self.spread(kinds, count.min(there), phrase);
             }
@@ -332,7 +356,10 @@ impl<'a> Discourse<'a> {
         if selected.len() >= count {
             let names: Vec<(String, String)> =
                 selected.iter().take(count).map(|o| (o.kind.clone(), o.name.clone())).collect();
-            return names.into_iter().map(|(kind, name)| self.add(vec![kind], Which::Named(name), &phrase.text)).collect();
+            return names
+                .into_iter()
+                .map(|(kind, name)| self.add(vec![kind], Which::Named(name), &phrase.text))
+                .collect();
         }
         (0..count).map(|_| self.add(order.clone(), Which::Any, &phrase.text)).collect()
     }
@@ -352,7 +379,11 @@ impl<'a> Discourse<'a> {
                 let chosen = if selected.is_empty() { all.to_vec() } else { selected };
                 for object in chosen {
                     if !except.contains(&object.name) && !except.contains(&object.kind) {
-                        found.push(self.add(vec![kind.clone()], Which::Named(object.name.clone()), &phrase.text));
+                        found.push(self.add(
+                            vec![kind.clone()],
+                            Which::Named(object.name.clone()),
+                            &phrase.text,
+                        ));
                     }
                 }
             }
@@ -362,12 +393,16 @@ impl<'a> Discourse<'a> {
 
     /// Members of a class: all of them for a plural, so many of different types for a number.
     fn class(&mut self, noun: &Noun, kinds: &[String], phrase: &Phrase, at: &[Place]) -> Vec<usize> {
-        let uncountable = !noun.word.ends_with('s') && ["food", "cutlery", "silverware", "produce", "fruit"].contains(&noun.word.as_str());
+        let uncountable = !noun.word.ends_with('s')
+            && ["food", "cutlery", "silverware", "produce", "fruit"].contains(&noun.word.as_str());
         let found = match phrase.quantity {
             Quantity::Count(count) => {
                 let there: usize = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).sum();
                 if there < count {
-                    self.problem(format!("there are not {count} of \"{}\" here, only {there}", phrase.text), 0.45);
+                    self.problem(
+                        format!("there are not {count} of \"{}\" here, only {there}", phrase.text),
+                        0.45,
+                    );
                 }
                 self.spread(kinds, count.min(there), phrase)
             }
@@ -396,9 +431,9 @@ impl<'a> Discourse<'a> {
     }
 
     fn slices(&mut self) -> Vec<usize> {
-        let last = (0..self.entities.len()).rev().find(|&e| {
-            self.entities[e].kinds.iter().any(|kind| self.scene.affords(kind, "sliceable"))
-        });
+        let last = (0..self.entities.len())
+            .rev()
+            .find(|&e| self.entities[e].kinds.iter().any(|kind| self.scene.affords(kind, "sliceable")));
         if last.is_none() {
             self.problem("it is not said what the slices are of".to_owned(), 0.3);
         }
@@ -429,7 +464,10 @@ impl<'a> Discourse<'a> {
         if chosen.is_empty() {
             self.problem(format!("there is nothing that \"{}\" could mean", phrase.text), 0.3);
         }
-        chosen.into_iter().map(|(kind, name)| self.add(vec![kind], Which::Named(name), &phrase.text)).collect()
+        chosen
+            .into_iter()
+            .map(|(kind, name)| self.add(vec![kind], Which::Named(name), &phrase.text))
+            .collect()
     }
 
     fn pronoun(&mut self, plural: bool, wants: Option<&str>) -> Vec<usize> {
@@ -490,8 +528,14 @@ impl<'a> Discourse<'a> {
     }
 }
 
-fn overlaps(entity: &Entity, noun: &Noun) -> bool {
-    entity.kinds.iter().any(|kind| noun.kinds.contains(kind))
+/// Whether a noun would be taken for the type that an entity is taken for.
+fn names(noun: &Noun, entity: &Entity, scene: &Scene<'_>) -> bool {
+    if noun.class {
+        return noun.kinds.iter().any(|kind| kind == entity.kind());
+    }
+    let first = noun.kinds.iter().find(|kind| scene.has(kind));
+    first.is_some_and(|first| first == entity.kind())
+        || entity.noun == noun.word && noun.kinds.iter().any(|kind| kind == entity.kind())
 }
 
 impl Discourse<'_> {
@@ -530,7 +574,8 @@ impl Discourse<'_> {
             }
         }
         let Some((_, _, chosen)) = best else {
-            let (thing, place) = (self.entities[entity].kind().to_owned(), self.entities[place].kind().to_owned());
+            let (thing, place) =
+                (self.entities[entity].kind().to_owned(), self.entities[place].kind().to_owned());
             self.assume(format!("a {place} is not known to take a {thing}"), 0.8);
             return;
         };
@@ -558,13 +603,23 @@ impl Discourse<'_> {
     }
 
     fn can_be_cooked(&self, kind: &str) -> bool {
-        self.scene.affords(kind, "cookable") || kind == "Bread"
+        self.scene.affords(kind, "cookable") || self.cooks_in_slices(kind)
+    }
+
+    fn cooks_in_slices(&self, kind: &str) -> bool {
+        self.lexicon.is_small("cooked_in_slices", &[&kind.to_lowercase()])
     }
 
     /// The states a verb brings to a thing of this kind; notes what is not possible.
     pub fn adapted_states(&mut self, entity: usize, verb: &super::lexicon::Verb) -> Settings {
         let kind = self.entities[entity].kind().to_owned();
-        let states = self.possible_states(entity, verb.set.clone());
+        let mut states = self.possible_states(entity, verb.set.clone());
+        if states.contains_key("isCooked")
+            && self.cooks_in_slices(&kind)
+            && states.insert("isSliced".to_owned(), super::yes()).is_none()
+        {
+            self.assume(format!("only slices of the {kind} can be cooked"), 0.99);
+        }
         for property in states.keys() {
             let needed = match property.as_str() {
                 "isOpen" => "openable",

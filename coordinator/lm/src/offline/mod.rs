@@ -24,7 +24,7 @@ use lamma_domains::goal::PropertyValue;
 use crate::{Answer, Clarification, Decomposition, LanguageModel, LmError, Request};
 use clause::Parser;
 use effect::{Change, Fact, Interpreter};
-use emit::Emitter;
+use emit::{Emitter, Stay};
 use lexicon::{Act, Lexicon};
 use mention::{Discourse, Spoken};
 use scene::Scene;
@@ -70,7 +70,7 @@ impl Offline {
 
     /// What it makes of an instruction.
     pub fn read(&self, request: &Request) -> Answer {
-        let scene = Scene::new(&request.objects, &request.robots);
+        let scene = Scene::new(&request.objects);
         let unknown: Vec<&str> = scene.kinds().filter(|kind| !self.lexicon.knows_type(kind)).collect();
         let reading = if unknown.is_empty() {
             read(&request.instruction, &self.lexicon, &scene)
@@ -135,7 +135,9 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
     let repairs = text::repair_spelling(&mut tokens, lexicon, scene);
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
     let mut reading = word_by_word(&words, lexicon, scene);
-    if reading.decomposition.subtasks.is_empty() || reading.decomposition.confidence < THRESHOLD {
+    let absent = reading.problems.iter().any(|problem| problem.starts_with("there is no "));
+    if !absent && (reading.decomposition.subtasks.is_empty() || reading.decomposition.confidence < THRESHOLD)
+    {
         let whole = as_situation(&words, instruction, lexicon, scene);
         if let Some(whole) = whole.filter(|w| w.decomposition.confidence > reading.decomposition.confidence) {
             reading = whole;
@@ -167,7 +169,12 @@ fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Readi
 }
 
 /// Reads a clause word by word; as a situation when that fails, or when a strong one fits.
-fn one_clause<'a>(interpreter: &mut Interpreter<'_, 'a>, index: usize, clauses: &[Clause<'a>], lexicon: &Lexicon) {
+fn one_clause<'a>(
+    interpreter: &mut Interpreter<'_, 'a>,
+    index: usize,
+    clauses: &[Clause<'a>],
+    lexicon: &Lexicon,
+) {
     let clause = &clauses[index];
     let situations = lexicon.situations();
     let words = situation::words_of(&clause.words);
@@ -183,7 +190,16 @@ fn one_clause<'a>(interpreter: &mut Interpreter<'_, 'a>, index: usize, clauses: 
     interpreter.clause(index, clause, clauses.get(index + 1));
     let failed = interpreter.discourse.problems.len() > before.problems
         || interpreter.facts.len() == before.facts.len() && !is_mere_step(clause);
-    if failed && let Some((vague, _)) = situation::best(situations, &words, false) {
+    let absent =
+        interpreter.discourse.problems[before.problems..].iter().any(|p| p.starts_with("there is no "));
+    // What was named and is not here is not to be replaced by what a situation would do.
+    let says_little = is_weak(clause, lexicon)
+        || !clause.objects.iter().any(|p| matches!(p.head, syntax::Head::Noun(_) | syntax::Head::Named(_)));
+    if failed
+        && says_little
+        && (!absent || is_weak(clause, lexicon))
+        && let Some((vague, _)) = situation::best(situations, &words, false)
+    {
         let literal = Snapshot::take(interpreter);
         before.restore(interpreter);
         if interpreter.situation(index, vague) {
@@ -202,18 +218,20 @@ fn one_clause<'a>(interpreter: &mut Interpreter<'_, 'a>, index: usize, clauses: 
 fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
     let first = clause.verb_text.split(' ').next().unwrap_or_default();
     let weak = inflect::bases(first).iter().any(|(base, _)| lexicon.is_small("weak", &[base]));
-    let plain = |phrase: &syntax::Phrase| !matches!(phrase.head, syntax::Head::Everything | syntax::Head::Room);
+    let plain =
+        |phrase: &syntax::Phrase| matches!(phrase.head, syntax::Head::Noun(_) | syntax::Head::Named(_));
     let places = clause.verbs.iter().any(|verb| verb.act == Act::Place)
         && clause.objects.iter().any(plain)
         && clause.places.iter().any(|place| matches!(place.phrase.head, syntax::Head::Noun(_)));
-    clause.verbs.is_empty() || weak && !places
+    clause.verbs.is_empty() || weak && !clause.verb_text.contains(' ') && !places
 }
 
 /// Whether a clause may well have no goal of its own: going somewhere, taking what is put down later.
 fn is_mere_step(clause: &Clause<'_>) -> bool {
     clause.negated
         || clause.verbs.iter().any(|verb| {
-            matches!(verb.act, Act::Go | Act::Use | Act::Hold) || verb.act == Act::Place && clause.places.is_empty()
+            matches!(verb.act, Act::Go | Act::Use | Act::Hold)
+                || verb.act == Act::Place && clause.places.is_empty()
         })
 }
 
@@ -258,7 +276,10 @@ fn share_objects(clauses: &mut [Clause<'_>]) {
         let (front, back) = clauses.split_at_mut(i + 1);
         let (first, second) = (&mut front[i], &mut back[0]);
         let needs_object = first.verbs.iter().any(|verb| {
-            matches!(verb.act, Act::Set | Act::Heat | Act::Cook | Act::Chill | Act::Hold | Act::Examine | Act::Place)
+            matches!(
+                verb.act,
+                Act::Set | Act::Heat | Act::Cook | Act::Chill | Act::Hold | Act::Examine | Act::Place
+            )
         });
         let is_pronoun = |phrase: &syntax::Phrase| matches!(phrase.head, syntax::Head::Pronoun { .. });
         let bare = first.objects.is_empty() && first.places.is_empty() && first.complement.is_empty();
@@ -273,7 +294,12 @@ fn share_objects(clauses: &mut [Clause<'_>]) {
     }
 }
 
-fn as_situation(words: &[String], instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Option<Reading> {
+fn as_situation(
+    words: &[String],
+    instruction: &str,
+    lexicon: &Lexicon,
+    scene: &Scene<'_>,
+) -> Option<Reading> {
     let words = situation::words_of(words);
     let (vague, _) = situation::best(lexicon.situations(), &words, false)?;
     let mut discourse = Discourse::new(lexicon, scene);
@@ -299,16 +325,15 @@ fn as_situation(words: &[String], instruction: &str, lexicon: &Lexicon, scene: &
 }
 
 fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]) -> Reading {
-    let chilled: Vec<(usize, usize)> = facts
+    let stays: Vec<Stay> = facts
         .iter()
-        .filter(|fact| {
-            matches!(&fact.change, Change::State(property, PropertyValue::Word(word))
-                if property == "temperature" && word == "Cold")
-                && clauses.get(fact.clause).is_some_and(|c| c.verbs.iter().any(|v| v.act == Act::Chill))
+        .filter(|fact| matches!(&fact.change, Change::State(property, _) if property == "temperature"))
+        .filter_map(|fact| {
+            let device = clauses.get(fact.clause)?.verbs.iter().find_map(|verb| verb.device.clone())?;
+            Some(Stay { clause: fact.clause, entity: fact.entity, device })
         })
-        .map(|fact| (fact.clause, fact.entity))
         .collect();
-    let subtasks = Emitter::new(&mut discourse, facts, &chilled).subtasks(clauses);
+    let subtasks = Emitter::new(&mut discourse, facts, &stays).subtasks(clauses);
     let confidence = if subtasks.is_empty() { 0.0 } else { discourse.confidence };
     Reading {
         decomposition: Decomposition { subtasks, assumptions: discourse.assumptions, confidence },

@@ -3,8 +3,8 @@
 use super::clause::Parser;
 use super::inflect;
 use super::lexicon::{LONGEST, Noun};
-use super::text::POSSESSIVE;
 use super::syntax::{Head, Phrase, Place, Quantity, is_determiner, is_function_word, preposition};
+use super::text::POSSESSIVE;
 
 /// Noun phrases within noun phrases go no deeper than this.
 const DEEPEST: usize = 4;
@@ -21,12 +21,8 @@ impl Parser<'_> {
     /// One noun phrase at the position, or nothing with the position unchanged.
     pub(super) fn phrase(&mut self, depth: usize) -> Option<Phrase> {
         let start = self.position;
-        let mut front = Front {
-            phrase: Phrase::bare(Head::Room, ""),
-            quantity: None,
-            sliced: false,
-            plural: false,
-        };
+        let mut front =
+            Front { phrase: Phrase::bare(Head::Room, ""), quantity: None, sliced: false, plural: false };
         let head = if depth > DEEPEST { None } else { self.head(&mut front) };
         let Some(head) = head else {
             self.position = start;
@@ -36,6 +32,8 @@ impl Parser<'_> {
         phrase.head = head;
         phrase.quantity = match (quantity, &phrase.head) {
             (Some(Quantity::Plural), _) | (None, _) if plural => Quantity::Plural,
+            // "some bread" is not several.
+            (Some(Quantity::Plural), Head::Noun(noun)) if !noun.class => Quantity::One,
             (Some(quantity), _) => quantity,
             (None, Head::Everything) => Quantity::All,
             (None, _) => Quantity::One,
@@ -138,16 +136,22 @@ impl Parser<'_> {
         }
         let known_modifier = self.lexicon.is_small("modifiers", &[word]);
         self.position += 1;
+        if known_modifier
+            && let Some(next) = self.peek()
+            && !is_function_word(next)
+            && !",.".contains(next)
+            && self.longest_noun().is_none()
+            && !self.is_slices(next)
+        {
+            self.position += 1;
+            return Some(Head::Unknown(next.to_owned()));
+        }
         if self.longest_noun().is_some() && (known_modifier || self.position > start) {
             if !known_modifier {
                 self.passed_over.push(word.to_owned());
             }
-            let mut front = Front {
-                phrase: Phrase::bare(Head::Room, ""),
-                quantity: None,
-                sliced: false,
-                plural: false,
-            };
+            let mut front =
+                Front { phrase: Phrase::bare(Head::Room, ""), quantity: None, sliced: false, plural: false };
             return self.head(&mut front);
         }
         Some(Head::Unknown(word.to_owned()))
@@ -200,7 +204,8 @@ impl Parser<'_> {
                     self.position += 1;
                 }
             }
-            "the" | "this" | "that" | "these" | "those" | "my" | "your" | "our" | "his" | "her" | "their" | "its" => {
+            "the" | "this" | "that" | "these" | "those" | "my" | "your" | "our" | "his" | "her" | "their"
+            | "its" => {
                 front.phrase.definite = true;
             }
             "all" | "every" | "each" | "whole" => front.quantity = Some(Quantity::All),
@@ -237,14 +242,17 @@ impl Parser<'_> {
                     || singular.iter().any(|s| length == 1 && self.lexicon.is_small(list, &[s.as_str()]))
             };
             let (slices, other) = (is_in("slices"), is_in("measures") || is_in("parts"));
-            if !(slices || other) || (slices && self.lexicon.is_small("parts", words) && !self.food_follows(length + 1)) {
+            if !(slices || other)
+                || (slices && self.lexicon.is_small("parts", words) && !self.food_follows(length + 1))
+            {
                 if !other {
                     continue;
                 }
             } else if slices {
                 front.sliced |= self.food_follows(length + 1);
             }
-            let plural = self.lexicon.noun(words).is_none() && words[length - 1].ends_with('s') && words[0] != "glass";
+            let plural =
+                self.lexicon.noun(words).is_none() && words[length - 1].ends_with('s') && words[0] != "glass";
             if plural && !self.lexicon.is_small("parts", words) && front.quantity.is_none() {
                 front.quantity = Some(Quantity::Plural);
                 front.plural = true;
@@ -331,7 +339,9 @@ impl Parser<'_> {
             let target = if adjective.selects { &mut phrase.selects } else { &mut phrase.states };
             target.extend(adjective.set.clone());
             self.position += length;
-            if self.peek() == Some("and") && self.rest().get(1).is_some_and(|w| self.lexicon.adjective(&[w]).is_some()) {
+            if self.peek() == Some("and")
+                && self.rest().get(1).is_some_and(|w| self.lexicon.adjective(&[w]).is_some())
+            {
                 self.position += 1;
             }
             return true;
@@ -341,10 +351,14 @@ impl Parser<'_> {
 
     /// Whether a noun, or adjectives and a noun, follow behind `offset` words.
     fn noun_follows(&self, offset: usize) -> bool {
-        (offset..offset + 4)
+        (offset..offset + 5)
             .take_while(|&at| {
+                // "the front edge of the bed": behind "of" a determiner may stand.
+                let of = at > 0 && self.word_at(at - 1) == Some("of");
                 self.word_at(at).is_some_and(|word| {
-                    preposition(&[word]).is_none() && !is_determiner(word) && !["and", ",", "."].contains(&word)
+                    preposition(&[word]).is_none()
+                        && (of || !is_determiner(word))
+                        && !["and", ",", "."].contains(&word)
                 })
             })
             .any(|at| {
@@ -380,7 +394,7 @@ impl Parser<'_> {
                     self.position += 2;
                     phrase.with.extend(self.phrases(depth + 1));
                 }
-                Some("with") if matches!(&phrase.head, Head::Noun(_) | Head::Named(_)) => {
+                Some("with") if self.is_vessel(phrase) => {
                     self.position += 1;
                     let with = self.phrases(depth + 1);
                     if with.is_empty() {
@@ -390,7 +404,9 @@ impl Parser<'_> {
                     phrase.with.extend(with);
                     let _ = self.skip_back_reference();
                 }
-                Some("that" | "which" | "thats") if matches!(self.word_at(1), Some("is" | "are" | "was" | "were")) => {
+                Some("that" | "which" | "thats")
+                    if matches!(self.word_at(1), Some("is" | "are" | "was" | "were")) =>
+                {
                     self.position += 2;
                     if !self.adjective(phrase) && preposition(&self.rest()).is_none() {
                         self.position = start;
@@ -398,14 +414,16 @@ impl Parser<'_> {
                     }
                     self.where_it_is(phrase, depth);
                 }
-                Some("that" | "which") if matches!(self.word_at(1), Some("has" | "contains" | "have" | "holds")) => {
+                Some("that" | "which")
+                    if matches!(self.word_at(1), Some("has" | "contains" | "have" | "holds")) =>
+                {
                     self.position += 2;
                     phrase.with.extend(self.phrases(depth + 1));
                     let _ = self.skip_back_reference();
                 }
-                Some("sitting" | "located" | "lying" | "laying" | "standing" | "resting" | "placed" | "found")
-                    if self.position + 1 < self.words.len() && preposition(&self.rest()[1..]).is_some() =>
-                {
+                Some(
+                    "sitting" | "located" | "lying" | "laying" | "standing" | "resting" | "placed" | "found",
+                ) if self.position + 1 < self.words.len() && preposition(&self.rest()[1..]).is_some() => {
                     self.position += 1;
                     self.where_it_is(phrase, depth);
                 }
@@ -492,7 +510,9 @@ impl Parser<'_> {
                 "," | "and" | "plus" | "or" => self.position += 1,
                 "as" if self.rest().starts_with(&["as", "well", "as"]) => self.position += 3,
                 "along" | "together" if self.word_at(1) == Some("with") => self.position += 2,
-                "then" | "also" if self.position > start && !self.clause_starts_here(false) => self.position += 1,
+                "then" | "also" if self.position > start && !self.clause_starts_here(false) => {
+                    self.position += 1
+                }
                 _ => break,
             }
         }

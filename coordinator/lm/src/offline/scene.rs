@@ -5,19 +5,18 @@ use std::collections::{BTreeMap, BTreeSet};
 use lamma_domains::goal::PropertyValue;
 
 use super::lexicon::{Settings, split_camel_case};
-use crate::{ObjectView, RobotView};
+use crate::ObjectView;
 
 /// An index over the objects of a request.
 pub struct Scene<'a> {
     objects: BTreeMap<&'a str, &'a ObjectView>,
     kinds: BTreeMap<&'a str, Vec<&'a ObjectView>>,
-    skills: BTreeSet<&'a str>,
     words: BTreeSet<String>,
 }
 
 impl<'a> Scene<'a> {
-    /// Indexes the objects and the team's skills.
-    pub fn new(objects: &'a [ObjectView], robots: &'a [RobotView]) -> Self {
+    /// Indexes the objects.
+    pub fn new(objects: &'a [ObjectView]) -> Self {
         let mut kinds: BTreeMap<&str, Vec<&ObjectView>> = BTreeMap::new();
         for object in objects {
             kinds.entry(&object.kind).or_default().push(object);
@@ -31,12 +30,7 @@ impl<'a> Scene<'a> {
             words.insert(phrase.replace(' ', ""));
             words.extend(phrase.split(' ').map(str::to_owned));
         }
-        Self {
-            objects: objects.iter().map(|object| (object.name.as_str(), object)).collect(),
-            kinds,
-            skills: robots.iter().flat_map(|robot| robot.skills.iter().map(String::as_str)).collect(),
-            words,
-        }
+        Self { objects: objects.iter().map(|object| (object.name.as_str(), object)).collect(), kinds, words }
     }
 
     /// The objects of a type, in the order of their numbers.
@@ -56,9 +50,10 @@ impl<'a> Scene<'a> {
 
     /// The object of a name, whatever its case.
     pub fn named(&self, name: &str) -> Option<&'a ObjectView> {
-        self.objects.get(name).copied().or_else(|| {
-            self.objects.values().find(|object| object.name.eq_ignore_ascii_case(name)).copied()
-        })
+        self.objects
+            .get(name)
+            .copied()
+            .or_else(|| self.objects.values().find(|object| object.name.eq_ignore_ascii_case(name)).copied())
     }
 
     /// Whether objects of a type afford something.
@@ -78,12 +73,8 @@ impl<'a> Scene<'a> {
 
     /// Whether a receptacle type is known to take a type.
     pub fn surely_accepts(&self, receptacle: &str, kind: &str) -> bool {
-        self.accepts(receptacle, kind) && self.of_kind(receptacle).iter().any(|object| !object.accepts.is_empty())
-    }
-
-    /// Whether one of the team has the skill; a team of no stated skills is taken to have all.
-    pub fn can(&self, skill: &str) -> bool {
-        self.skills.is_empty() || self.skills.contains(skill)
+        self.accepts(receptacle, kind)
+            && self.of_kind(receptacle).iter().any(|object| !object.accepts.is_empty())
     }
 
     /// The words of the types' names.
@@ -116,11 +107,10 @@ pub fn is_in_state(object: &ObjectView, states: &Settings) -> bool {
         let holds = object.states.iter().any(|state| state == property);
         match value {
             PropertyValue::Flag(flag) => holds == *flag,
-            PropertyValue::Word(word) => {
-                object.states.iter().any(|state| {
-                    state == word || state.strip_prefix(property.as_str()).is_some_and(|rest| rest.ends_with(word.as_str()))
-                })
-            }
+            PropertyValue::Word(word) => object.states.iter().any(|state| {
+                state == word
+                    || state.strip_prefix(property.as_str()).is_some_and(|rest| rest.ends_with(word.as_str()))
+            }),
         }
     })
 }

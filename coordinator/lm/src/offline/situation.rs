@@ -93,7 +93,11 @@ fn has_word(words: &[String], wanted: &str) -> bool {
 }
 
 /// The situation that explains most of the words.
-pub fn best<'s>(situations: &'s [Situation], words: &[String], strong_only: bool) -> Option<(&'s Situation, usize)> {
+pub fn best<'s>(
+    situations: &'s [Situation],
+    words: &[String],
+    strong_only: bool,
+) -> Option<(&'s Situation, usize)> {
     let mut best: Option<(&Situation, usize)> = None;
     for situation in situations.iter().filter(|situation| situation.strong || !strong_only) {
         if let Some(score) = situation.fits(words)

@@ -71,7 +71,8 @@ pub fn repair_spelling(tokens: &mut [Token], lexicon: &Lexicon, scene: &Scene) -
     let mut repairs = Vec::new();
     for token in tokens {
         let word = token.text.clone();
-        if word.len() < 4 || !word.chars().all(char::is_alphabetic) || is_known(&word, lexicon, scene) {
+        if word.len() < 4 || !word.chars().all(|c| c.is_ascii_alphabetic()) || is_known(&word, lexicon, scene)
+        {
             continue;
         }
         let in_scene = nearest(&word, scene.vocabulary());

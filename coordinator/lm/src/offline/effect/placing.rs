@@ -8,10 +8,7 @@ use super::{Change, Interpreter};
 impl<'a> Interpreter<'_, 'a> {
     /// `put`, `store`, `throw away`.
     pub(super) fn place(&mut self, clause: &Clause<'a>, verb: &Verb, next: Option<&Clause<'a>>) -> Spoken {
-        if clause.objects.is_empty()
-            && clause.places.is_empty()
-            && !clause.complement.is_empty()
-        {
+        if clause.objects.is_empty() && clause.places.is_empty() && !clause.complement.is_empty() {
             return self.keep(clause);
         }
         if !clause.complement.is_empty() && clause.places.is_empty() {
@@ -29,13 +26,17 @@ impl<'a> Interpreter<'_, 'a> {
         {
             return self.put_beside(clause, &at, near);
         }
-        let carried = clause.verbs.iter().any(|verb| verb.act == Act::Hold);
+        // "move the clock while turning on the lamp": it is carried to the light.
+        let to_light = self.lamp_wanted && self.switches_on;
+        let carried = to_light || clause.verbs.iter().any(|verb| verb.act == Act::Hold);
         if carried && verb.act == Act::Place && !clause.back {
             return self.hold(clause);
         }
         let objects = self.objects(clause, &at, Some("pickupable"));
         let goes_on = next.is_some_and(|next| {
-            next.verbs.iter().any(|verb| matches!(verb.act, Act::Place | Act::Store | Act::Discard | Act::Set))
+            next.verbs
+                .iter()
+                .any(|verb| matches!(verb.act, Act::Place | Act::Store | Act::Discard | Act::Set))
         });
         let homes: Vec<String> = match verb.act {
             Act::Discard => vec!["GarbageCan".to_owned()],
@@ -47,7 +48,8 @@ impl<'a> Interpreter<'_, 'a> {
             let home = match (verb.act, clause.back) {
                 (_, true) => self.where_it_was(entity),
                 (Act::Store, _) => self.home_of(&kind),
-                _ => homes.iter().find(|home| self.discourse.scene.has(home)).cloned(),
+                (Act::Discard, _) => homes.iter().find(|home| self.discourse.scene.has(home)).cloned(),
+                _ => homes.iter().find(|home| self.discourse.scene.accepts(home, &kind)).cloned(),
             };
             match home {
                 Some(home) => {
@@ -72,14 +74,18 @@ impl<'a> Interpreter<'_, 'a> {
     fn sort_places(&self, clause: &Clause<'a>) -> (Option<Place>, Option<Place>, Vec<Place>) {
         let scene = self.discourse.scene;
         let is_there = |place: &Place| match &place.phrase.head {
-            Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")),
+            Head::Noun(noun) => {
+                noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle"))
+                    || !noun.kinds.iter().any(|kind| scene.has(kind))
+            }
             Head::Named(_) | Head::Pronoun { .. } => true,
             Head::Unknown(_) => true,
             _ => false,
         };
         let goals: Vec<usize> = (0..clause.places.len())
             .filter(|&i| {
-                matches!(clause.places[i].relation, Relation::In | Relation::To) && is_there(&clause.places[i])
+                matches!(clause.places[i].relation, Relation::In | Relation::To)
+                    && is_there(&clause.places[i])
             })
             .collect();
         let Some(&last) = goals.last() else {
@@ -159,20 +165,28 @@ impl<'a> Interpreter<'_, 'a> {
             }
             return Spoken { objects, places: vec![place], placed: true };
         }
-        let under = reference.as_deref().filter(|_| near.under).and_then(|kind| self.discourse.lexicon.under(kind));
+        let under =
+            reference.as_deref().filter(|_| near.under).and_then(|kind| self.discourse.lexicon.under(kind));
         let stands_on = reference.as_deref().and_then(|kind| {
             let object = scene.of_kind(kind).first()?;
             let parents = object.parents.iter().filter_map(|parent| scene.named(parent));
-            parents.map(|parent| parent.kind.as_str()).find(|kind| *kind != "Floor" && scene.accepts(kind, &thing))
+            parents
+                .map(|parent| parent.kind.as_str())
+                .find(|kind| *kind != "Floor" && scene.accepts(kind, &thing))
         });
         let likely = self.discourse.lexicon.beside().find(|kind| scene.surely_accepts(kind, &thing));
         let kinds = self.discourse.entities[first].kinds.clone();
-        let chosen = under.filter(|place| kinds.iter().any(|kind| scene.accepts(place, kind))).or(stands_on).or(likely).map(str::to_owned);
+        let chosen = under
+            .filter(|place| kinds.iter().any(|kind| scene.accepts(place, kind)))
+            .or(stands_on)
+            .or(likely)
+            .map(str::to_owned);
         let Some(chosen) = chosen else {
             self.discourse.problem(format!("there is no surface for \"{}\"", clause.text), 0.3);
             return Spoken { objects, ..Spoken::default() };
         };
-        self.discourse.assume(format!("the place by \"{}\" is taken to be the {chosen}", near.phrase.text), 0.8);
+        self.discourse
+            .assume(format!("the place by \"{}\" is taken to be the {chosen}", near.phrase.text), 0.8);
         let place = self.discourse.place_of_kind(&chosen);
         for &entity in &objects {
             self.put_in(entity, place);
@@ -193,6 +207,11 @@ impl<'a> Interpreter<'_, 'a> {
             return Some(self.discourse.entities[place].kind().to_owned());
         }
         let object = scene.of_kind(self.discourse.entities[entity].kind()).first()?;
-        object.parents.iter().filter_map(|parent| scene.named(parent)).map(|parent| parent.kind.clone()).next()
+        object
+            .parents
+            .iter()
+            .filter_map(|parent| scene.named(parent))
+            .map(|parent| parent.kind.clone())
+            .next()
     }
 }
