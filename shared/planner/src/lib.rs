@@ -20,10 +20,4 @@ pub use search::{
     Engine, GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, plan, relaxed_plan_cost, solve,
 };
 pub use task::{FactId, OperatorId, State, Task};
-pub mod interpreter;
-pub mod plan;
-pub mod validate;
-
-pub use interpreter::{GroundAction, GroundCondition, GroundEffect, Interpreter, WorldState};
-pub use plan::{GroundAct, Literal, Plan};
 pub use validate::{Verdict, read_plan, validate, write_plan};
