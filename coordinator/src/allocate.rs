@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::{Condition, GroundAtom};
-use lamma_planner::GroundAct;
+use lamma_planner::{GroundAct, Plan};
 use lamma_planner::interpreter::{Interpreter, WorldState};
 use lamma_planner::{Limits, Outcome};
 
@@ -24,9 +24,36 @@ use crate::split::{segments, team_plan};
 use crate::team::Team;
 use crate::understand::Subgoal;
 
+/// How finely sub-tasks are cut before they are given out. The coarser cuts are what remains when a finer one
+/// did not lead to a plan: they lose parallelism and gain certainty.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Cut {
+    /// Independent parts of a sub-task may go to different robots.
+    #[default]
+    Parts,
+    /// A sub-task stays whole.
+    Whole,
+    /// The team plans as one actor, sub-task after sub-task, keeping what is reached; what it finds out of
+    /// reach is out of reach.
+    Team,
+}
+
+impl Cut {
+    /// The next coarser one.
+    pub fn coarser(self) -> Option<Cut> {
+        match self {
+            Cut::Parts => Some(Cut::Whole),
+            Cut::Whole => Some(Cut::Team),
+            Cut::Team => None,
+        }
+    }
+}
+
 /// What there is to allocate.
 #[derive(Clone, Debug)]
 pub struct AllocateInput {
+    /// How finely to cut.
+    pub cut: Cut,
     /// The team.
     pub team: Arc<Team>,
     /// Members that are alive, by index.
@@ -120,8 +147,12 @@ pub fn allocate(input: &AllocateInput, cancel: &AtomicBool) -> Result<Allocation
     let interpreter = Interpreter::new(&input.team.domain, &input.team.objects)
         .map_err(|e| NoAllocation::GaveUp(e.to_string()))?;
     let mut allocator = Allocator { input, interpreter, items: Vec::new(), cancel };
-    for subgoal in 0..input.subgoals.len() {
-        allocator.take(subgoal)?;
+    if input.cut == Cut::Team {
+        allocator.take_all_as_team()?;
+    } else {
+        for subgoal in 0..input.subgoals.len() {
+            allocator.take(subgoal)?;
+        }
     }
     let work: Vec<Work> = allocator.items.iter().map(work).collect();
     let members = assign(&work);
@@ -156,9 +187,26 @@ impl Allocator<'_> {
             .filter(|&i| self.items[i].finishing && subgoal.after.contains(&self.items[i].subgoal))
             .collect();
         let state = self.state_after(&asked);
-        for part in independent_parts(&ground) {
+        let parts =
+            if self.input.cut == Cut::Parts { independent_parts(&ground) } else { vec![ground.clone()] };
+        for part in parts {
             if !subgoal.after.is_empty() || !self.interpreter.holds(&state, &part) {
                 self.take_part(index, condition_from(&part), &asked, &state)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Every sub-task in turn, from where the ones before it lead, and without undoing them.
+    fn take_all_as_team(&mut self) -> Result<(), NoAllocation> {
+        let mut kept: Vec<Condition> = Vec::new();
+        for index in 0..self.input.subgoals.len() {
+            let subgoal = &self.input.subgoals[index];
+            let everything: Vec<usize> = (0..self.items.len()).collect();
+            let state = self.state_after(&everything);
+            self.split(index, &subgoal.goal, &everything, &state, None, &kept)?;
+            if subgoal.lasting {
+                kept.push(subgoal.goal.clone());
             }
         }
         Ok(())
@@ -186,7 +234,7 @@ impl Allocator<'_> {
                 return Ok(());
             }
         }
-        self.split(index, &goal, asked, state, gave_up)
+        self.split(index, &goal, asked, state, gave_up, &[])
     }
 
     fn push(
@@ -250,7 +298,8 @@ impl Allocator<'_> {
         (bids, gave_up)
     }
 
-    /// What nobody can do alone becomes an item for each part between two hand-overs.
+    /// What nobody can do alone becomes an item for each part between two hand-overs. What is in `kept`
+    /// still holds at the end.
     fn split(
         &mut self,
         index: usize,
@@ -258,28 +307,22 @@ impl Allocator<'_> {
         asked: &[usize],
         state: &WorldState,
         gave_up: Option<String>,
+        kept: &[Condition],
     ) -> Result<(), NoAllocation> {
-        let subgoal = &self.input.subgoals[index];
-        let (team, available) = (&self.input.team, &self.input.available);
-        let limits = self.limits();
-        let plan = match team_plan(team, available, &state.facts, &[], goal, &limits, self.cancel) {
-            Ok(Outcome::Found(plan)) => plan,
-            Ok(Outcome::Unsolvable(reason)) => {
-                let why = why_infeasible(self.input, &state.facts, goal, &limits, self.cancel);
-                let why = why.unwrap_or_else(|| reason.to_string());
-                let text = format!("nobody of the team can do \"{}\": {why}", subgoal.text);
-                return Err(NoAllocation::Infeasible(text));
-            }
-            Ok(Outcome::GaveUp(why)) => return Err(NoAllocation::GaveUp(gave_up.unwrap_or(why.to_string()))),
-            Err(why) => return Err(NoAllocation::GaveUp(why)),
-        };
-        let segments = segments(team, &self.interpreter, &state.facts, goal, &plan)
+        let all = Condition::And(std::iter::once(goal).chain(kept).cloned().collect());
+        let plan = self.plan_as_team(index, &all, state, gave_up)?;
+        let team = &self.input.team;
+        let segments = segments(team, &self.interpreter, &state.facts, &all, &plan)
             .map_err(NoAllocation::GaveUp)?;
         let base = self.items.len();
         for segment in segments {
             let handed: Vec<usize> = segment.after.iter().map(|k| base + k).collect();
             let after = union(asked, &handed);
-            let (bids, _) = self.bids(None, &segment.goal, &self.state_after(&after));
+            let bids = if self.input.cut == Cut::Team {
+                BTreeMap::new()
+            } else {
+                self.bids(None, &segment.goal, &self.state_after(&after)).0
+            };
             self.items.push(Item {
                 subgoal: index,
                 goal: segment.goal,
@@ -291,6 +334,27 @@ impl Allocator<'_> {
             });
         }
         Ok(())
+    }
+
+    fn plan_as_team(
+        &self,
+        index: usize,
+        goal: &Condition,
+        state: &WorldState,
+        gave_up: Option<String>,
+    ) -> Result<Plan, NoAllocation> {
+        let (team, available, limits) = (&self.input.team, &self.input.available, self.limits());
+        match team_plan(team, available, &state.facts, &[], goal, &limits, self.cancel) {
+            Ok(Outcome::Found(plan)) => Ok(plan),
+            Ok(Outcome::Unsolvable(reason)) => {
+                let why = why_infeasible(self.input, &state.facts, goal, &limits, self.cancel);
+                let why = why.unwrap_or_else(|| reason.to_string());
+                let text = &self.input.subgoals[index].text;
+                Err(NoAllocation::Infeasible(format!("nobody of the team can do \"{text}\": {why}")))
+            }
+            Ok(Outcome::GaveUp(why)) => Err(NoAllocation::GaveUp(gave_up.unwrap_or(why.to_string()))),
+            Err(why) => Err(NoAllocation::GaveUp(why)),
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use lamma_planner::GroundAct;
 use lamma_protocol::message::{EventKind, Order, Package, PlanResult};
 use lamma_protocol::{AgentId, PackageId, StepIndex};
 
+use crate::allocate::Cut;
 use crate::combine::ground_act;
 use crate::job::{CombineInput, CoordinatorJob};
 use crate::machine::Coordinator;
@@ -12,7 +13,7 @@ use crate::problem::member_problem;
 use crate::result::OutcomeKind;
 
 /// Packages that may be planned again because they did not fit after the others.
-const MAX_CONFLICTS: u32 = 40;
+const MAX_CONFLICTS: u32 = 12;
 
 impl Coordinator {
     /// Asks for the packages that are ready, and merges a batch once all of it is planned.
@@ -68,6 +69,8 @@ impl Coordinator {
         for (package, result) in answers {
             let spec = round.allocation.packages[package].clone();
             let acts: Vec<GroundAct> = match (result, &spec.fallback) {
+                // Each robot has planned its part; the team's own plan is what is known to fit together.
+                (_, Some(whole)) if self.cut == Cut::Team => whole.clone(),
                 (PlanResult::Found(acts), _) => acts.iter().map(ground_act).collect(),
                 (_, Some(fallback)) => fallback.clone(),
                 (PlanResult::Infeasible(why) | PlanResult::GaveUp(why) | PlanResult::Malformed(why), None) => {
@@ -95,7 +98,7 @@ impl Coordinator {
 
     fn planning_failed(&mut self, stop: Stop) {
         match stop {
-            Stop::Broken(why) => self.finish(OutcomeKind::GaveUp, Some(why)),
+            Stop::Broken(why) => self.coarsen(OutcomeKind::GaveUp, why),
             Stop::Reallocate { package, why } => {
                 let Phase::Planning(round) = &self.phase else { return };
                 let spec = round.allocation.packages[package].clone();
@@ -112,8 +115,7 @@ impl Coordinator {
         let reached = ground.is_ok_and(|g| self.interpreter.holds(&round.merger.state, &g));
         if !reached {
             self.put_phase(Phase::Planning(round));
-            let reason = "the sub-tasks undo each other's goals: no plan keeps them all".to_string();
-            return self.finish(OutcomeKind::Infeasible, Some(reason));
+            return self.coarsen(OutcomeKind::GaveUp, "the sub-tasks undo each other's goals".into());
         }
         let input = CombineInput {
             team: self.config.team.clone(),

@@ -13,7 +13,7 @@ use lamma_protocol::message::{
 };
 use lamma_protocol::{AgentId, Epoch, Input, Machine, Output, Revision, Tick, Topic};
 
-use crate::allocate::Allocation;
+use crate::allocate::{Allocation, Cut};
 use crate::combine::TeamPlan;
 use crate::job::{CoordinatorDone, CoordinatorJob};
 use crate::phase::Phase;
@@ -69,6 +69,7 @@ pub struct Coordinator {
     pub(crate) closing: Option<TeamPlan>,
     pub(crate) reached_on_the_way: BTreeSet<usize>,
     pub(crate) excluded: BTreeSet<(usize, usize)>,
+    pub(crate) cut: Cut,
     pub(crate) replans: u32,
     pub(crate) next_job: u64,
     pub(crate) now: Tick,
@@ -107,6 +108,7 @@ impl Coordinator {
             closing: None,
             reached_on_the_way: BTreeSet::new(),
             excluded: BTreeSet::new(),
+            cut: Cut::default(),
             replans: 0,
             next_job: 0,
             now: Tick(0),

@@ -159,7 +159,7 @@ impl RunResult {
             reason: Some(reason.into()),
             goal: GoalResult::default(),
             understood: UnderstoodResult::default(),
-            metrics: Metrics::default(),
+            metrics: Metrics { exe: 1.0, ..Metrics::default() },
             plan: PlanResult::default(),
             time_ms: TimeMs::default(),
             faults: Vec::new(),

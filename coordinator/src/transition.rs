@@ -51,6 +51,19 @@ impl Coordinator {
         self.begin_epoch();
     }
 
+    /// The cut has not led to a plan: the next coarser one may. Only what the coarsest finds is the outcome.
+    pub(crate) fn coarsen(&mut self, kind: OutcomeKind, why: String) {
+        match self.cut.coarser() {
+            Some(coarser) => {
+                self.cut = coarser;
+                self.excluded.clear();
+                self.event(EventKind::Note, format!("planning more coarsely: {why}"));
+                self.begin_epoch();
+            }
+            None => self.finish(kind, Some(why)),
+        }
+    }
+
     pub(crate) fn finish(&mut self, kind: OutcomeKind, reason: Option<String>) {
         self.finish_with(kind, reason, None);
     }
@@ -179,6 +192,7 @@ impl Coordinator {
             subgoals[s].after.clear();
         }
         let input = AllocateInput {
+            cut: self.cut,
             team: self.config.team.clone(),
             available: self.roster.available(),
             facts,
@@ -226,9 +240,9 @@ impl Coordinator {
                     .filter_map(|a| self.roster.lost_reason(a).map(|r| format!("{} {r}", self.name_of(a))))
                     .collect();
                 let lost = if lost.is_empty() { String::new() } else { format!(" ({})", lost.join("; ")) };
-                return self.finish(OutcomeKind::Infeasible, Some(format!("{why}{lost}")));
+                return self.coarsen(OutcomeKind::Infeasible, format!("{why}{lost}"));
             }
-            Err(NoAllocation::GaveUp(why)) => return self.finish(OutcomeKind::GaveUp, Some(why)),
+            Err(NoAllocation::GaveUp(why)) => return self.coarsen(OutcomeKind::GaveUp, why),
         };
         let Some(facts) = self.view.state() else { return };
         self.lower_bound.get_or_insert(allocation.lower_bound);

@@ -67,7 +67,11 @@ fn run_all(args: &BenchArgs, suite: &Suite) -> Result<Vec<Finished>, Failure> {
             let Some(entry) = suite.entries.get(index) else { return };
             bar.set_message(entry.task.id.clone());
             let finished = run_one(args, folder.path(), index, entry);
-            bar.println(line(entry, &finished.result));
+            // A bar that nobody sees prints nothing either.
+            match bar.is_hidden() {
+                true => eprintln!("{}", line(entry, &finished.result)),
+                false => bar.println(line(entry, &finished.result)),
+            }
             bar.inc(1);
             done.lock().unwrap_or_else(|e| e.into_inner()).push(finished);
         }
