@@ -31,7 +31,7 @@ fn main() -> Result<(), Failure> {
     let mut sentences: Vec<(u64, &Value, &str)> = Vec::new();
     for task in tasks["tasks"].as_array().into_iter().flatten() {
         let id = task["id"].as_str().unwrap_or_default();
-        if (fnv(id) % 2 == 0) != (half == "dev") {
+        if fnv(id).is_multiple_of(2) != (half == "dev") {
             continue;
         }
         for sentence in task["sentences"].as_array().into_iter().flatten().filter_map(Value::as_str) {
