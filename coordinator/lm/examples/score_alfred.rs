@@ -2,8 +2,11 @@
 //!
 //! `score_alfred FOLDER [dev|test] [SENTENCES] [SHOW]` reads `alfred/train_compact.json.gz` and `ai2thor/*` in
 //! the folder, takes that many sentences of one half of the tasks (split by the task's id), and prints the
-//! rate of exact goals and the causes of the rest. Failures are shown for the development half only: the
-//! other half is scored and never read.
+//! rate of exact goals and the causes of the rest. Failures are shown for the development half only.
+//!
+//! `test` is the other half. The lexicon's first word counts were taken over a split by another hash (CRC-32),
+//! which covers half of it, so `clean` is the quarter of the tasks that neither touched.
+//! `STRICT=1` counts a question as a failure and a state that does not last as missing.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -31,7 +34,7 @@ fn main() -> Result<(), Failure> {
     let mut sentences: Vec<(u64, &Value, &str)> = Vec::new();
     for task in tasks["tasks"].as_array().into_iter().flatten() {
         let id = task["id"].as_str().unwrap_or_default();
-        if (fnv(id) % 2 == 0) != (half == "dev") {
+        if fnv(id).is_multiple_of(2) != (half == "dev") || half == "clean" && crc32(id).is_multiple_of(2) {
             continue;
         }
         for sentence in task["sentences"].as_array().into_iter().flatten().filter_map(Value::as_str) {
@@ -86,6 +89,19 @@ fn fnv(text: &str) -> u64 {
         .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
 }
 
+fn crc32(text: &str) -> u32 {
+    !text.bytes().fold(u32::MAX, |sum, byte| {
+        (0..8).fold(
+            sum ^ u32::from(byte),
+            |sum, _| if sum & 1 == 1 { sum >> 1 ^ 0xedb8_8320 } else { sum >> 1 },
+        )
+    })
+}
+
+fn strict() -> bool {
+    std::env::var_os("STRICT").is_some()
+}
+
 /// What is known of types and floor plans.
 struct Facts {
     affordances: Value,
@@ -137,7 +153,7 @@ impl Facts {
             instruction: sentence.to_owned(),
             objects,
             robots: Vec::new(),
-            assume: true,
+            assume: !strict(),
             deadline: Duration::from_secs(5),
         }
     }
@@ -265,7 +281,7 @@ impl Flattener<'_> {
                     PropertyValue::Flag(flag) => flag.to_string(),
                     PropertyValue::Word(word) => word.clone(),
                 };
-                if lasting || property == "temperature" {
+                if lasting || property == "temperature" && !strict() {
                     node.states.insert(property.clone(), value);
                 }
             }

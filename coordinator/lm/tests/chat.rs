@@ -31,8 +31,8 @@ struct Server {
 
 impl Server {
     fn start(script: Script) -> Self {
-        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
-        let url = format!("http://{}/v1", listener.local_addr().unwrap());
+        let listener = TcpListener::bind("127.0.0.1:0").expect("a free port");
+        let url = format!("http://{}/v1", listener.local_addr().expect("it is bound"));
         let seen: Arc<Mutex<Vec<(String, Value)>>> = Arc::default();
         let log = Arc::clone(&seen);
         std::thread::spawn(move || {
@@ -40,7 +40,7 @@ impl Server {
                 let Ok(mut stream) = stream else { return };
                 let Some((head, body)) = read_request(&mut stream) else { continue };
                 let n = {
-                    let mut log = log.lock().unwrap();
+                    let mut log = log.lock().expect("no test panics while it holds the log");
                     log.push((head, body.clone()));
                     log.len()
                 };
@@ -51,7 +51,7 @@ impl Server {
     }
 
     fn requests(&self) -> Vec<(String, Value)> {
-        self.seen.lock().unwrap().clone()
+        self.seen.lock().expect("no test panics while it holds the log").clone()
     }
 
     fn http(&self, retries: u32) -> Http {

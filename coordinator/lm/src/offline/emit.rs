@@ -67,6 +67,7 @@ impl<'e, 'a> Emitter<'e, 'a> {
     pub fn subtasks(&self, clauses: &[Clause<'_>]) -> Vec<Subtask> {
         let mut found: Vec<(usize, Subtask)> = Vec::new();
         let mut numbers: BTreeMap<usize, Vec<String>> = BTreeMap::new();
+        let mut ancestors: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
         for (index, clause) in clauses.iter().enumerate() {
             for lasting in [false, true] {
                 let goal = self.goal(index, lasting);
@@ -78,6 +79,10 @@ impl<'e, 'a> Emitter<'e, 'a> {
                 after.extend(numbers.get(&index).into_iter().flatten().cloned());
                 after.sort_by_key(|id| id[1..].parse::<usize>().unwrap_or(0));
                 after.dedup();
+                let implied: BTreeSet<String> =
+                    after.iter().filter_map(|id| ancestors.get(id)).flatten().cloned().collect();
+                after.retain(|id| !implied.contains(id));
+                ancestors.insert(id.clone(), implied.into_iter().chain(after.iter().cloned()).collect());
                 numbers.entry(index).or_default().push(id.clone());
                 found.push((
                     index,

@@ -102,11 +102,13 @@ impl LanguageModel for Offline {
 struct Reading {
     decomposition: Decomposition,
     problems: Vec<String>,
+    /// Readings that were not preferred, best first.
+    others: Vec<Decomposition>,
 }
 
 impl Reading {
     fn answer(self, assume: bool) -> Answer {
-        let Self { decomposition, problems } = self;
+        let Self { decomposition, problems, others } = self;
         let empty = decomposition.subtasks.is_empty();
         if !empty && (assume || decomposition.confidence >= THRESHOLD) {
             let mut decomposition = decomposition;
@@ -119,7 +121,8 @@ impl Reading {
             None if empty => "I found nothing to do in this. What shall be true in the end?".to_owned(),
             None => "Is this what you mean?".to_owned(),
         };
-        let readings = if empty { Vec::new() } else { vec![decomposition] };
+        let all = std::iter::once(decomposition).chain(others);
+        let readings = all.filter(|reading| !reading.subtasks.is_empty()).take(3).collect();
         Answer::Clarify(Clarification { question, understood, not_understood: problems, readings })
     }
 }
@@ -139,8 +142,13 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
     if !absent && (reading.decomposition.subtasks.is_empty() || reading.decomposition.confidence < THRESHOLD)
     {
         let whole = as_situation(&words, instruction, lexicon, scene);
-        if let Some(whole) = whole.filter(|w| w.decomposition.confidence > reading.decomposition.confidence) {
-            reading = whole;
+        match whole {
+            Some(mut whole) if whole.decomposition.confidence > reading.decomposition.confidence => {
+                whole.others.push(reading.decomposition);
+                reading = whole;
+            }
+            Some(whole) => reading.others.push(whole.decomposition),
+            None => {}
         }
     }
     if cut < instruction.len() {
@@ -338,5 +346,6 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
     Reading {
         decomposition: Decomposition { subtasks, assumptions: discourse.assumptions, confidence },
         problems: discourse.problems,
+        others: Vec::new(),
     }
 }

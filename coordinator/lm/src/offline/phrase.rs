@@ -3,7 +3,7 @@
 use super::clause::Parser;
 use super::inflect;
 use super::lexicon::{LONGEST, Noun};
-use super::syntax::{Head, Phrase, Place, Quantity, is_determiner, is_function_word, preposition};
+use super::syntax::{Head, Phrase, Quantity, is_determiner, is_function_word, preposition};
 use super::text::POSSESSIVE;
 
 /// Noun phrases within noun phrases go no deeper than this.
@@ -15,20 +15,27 @@ struct Front {
     quantity: Option<Quantity>,
     sliced: bool,
     plural: bool,
+    /// How many heads were read before this one ("the table's drawer's …").
+    chained: usize,
 }
 
 impl Parser<'_> {
     /// One noun phrase at the position, or nothing with the position unchanged.
     pub(super) fn phrase(&mut self, depth: usize) -> Option<Phrase> {
         let start = self.position;
-        let mut front =
-            Front { phrase: Phrase::bare(Head::Room, ""), quantity: None, sliced: false, plural: false };
+        let mut front = Front {
+            phrase: Phrase::bare(Head::Room, ""),
+            quantity: None,
+            sliced: false,
+            plural: false,
+            chained: 0,
+        };
         let head = if depth > DEEPEST { None } else { self.head(&mut front) };
         let Some(head) = head else {
             self.position = start;
             return None;
         };
-        let Front { mut phrase, quantity, sliced, plural } = front;
+        let Front { mut phrase, quantity, sliced, plural, .. } = front;
         phrase.head = head;
         phrase.quantity = match (quantity, &phrase.head) {
             (Some(Quantity::Plural), _) | (None, _) if plural => Quantity::Plural,
@@ -105,7 +112,7 @@ impl Parser<'_> {
                 self.position += length;
                 return Some(Head::Room);
             }
-            return self.unknown_head(word, start);
+            return self.unknown_head(word, start, front);
         }
         None
     }
@@ -122,7 +129,7 @@ impl Parser<'_> {
     }
 
     /// A word nobody knows: a modifier when a noun follows at once, else the head.
-    fn unknown_head(&mut self, word: &str, start: usize) -> Option<Head> {
+    fn unknown_head(&mut self, word: &str, start: usize, front: &mut Front) -> Option<Head> {
         let liquid = ["coffee", "water", "wine"].contains(&word);
         if liquid {
             self.position += 1;
@@ -146,13 +153,15 @@ impl Parser<'_> {
             self.position += 1;
             return Some(Head::Unknown(next.to_owned()));
         }
-        if self.longest_noun().is_some() && (known_modifier || self.position > start) {
+        if front.chained < LONGEST
+            && self.longest_noun().is_some()
+            && (known_modifier || self.position > start)
+        {
             if !known_modifier {
                 self.passed_over.push(word.to_owned());
             }
-            let mut front =
-                Front { phrase: Phrase::bare(Head::Room, ""), quantity: None, sliced: false, plural: false };
-            return self.head(&mut front);
+            front.chained += 1;
+            return self.head(front);
         }
         Some(Head::Unknown(word.to_owned()))
     }
@@ -290,7 +299,8 @@ impl Parser<'_> {
         while let Some(word) = self.peek() {
             if word == POSSESSIVE {
                 self.position += 1;
-                if self.noun_follows(0) {
+                front.chained += 1;
+                if front.chained < LONGEST && self.noun_follows(0) {
                     return self.head(front).unwrap_or(Head::Noun(noun));
                 }
                 plural = true;
@@ -367,119 +377,6 @@ impl Parser<'_> {
             })
     }
 
-    /// What follows the head: contents, places, exceptions.
-    fn after_head(&mut self, phrase: &mut Phrase, depth: usize) {
-        loop {
-            let start = self.position;
-            match self.peek() {
-                Some("of") => {
-                    self.position += 1;
-                    if let Some(of) = self.phrase(depth + 1) {
-                        merge_of(phrase, of);
-                    }
-                }
-                Some(",")
-                    if matches!(self.word_at(1), Some("containing" | "holding"))
-                        || self.word_at(1) == Some("with") && self.is_vessel(phrase) =>
-                {
-                    self.position += 2;
-                    phrase.with.extend(self.phrases(depth + 1));
-                    let _ = self.skip_back_reference();
-                }
-                Some("containing" | "holding") => {
-                    self.position += 1;
-                    phrase.with.extend(self.phrases(depth + 1));
-                }
-                Some("filled" | "full") if matches!(self.word_at(1), Some("with" | "of")) => {
-                    self.position += 2;
-                    phrase.with.extend(self.phrases(depth + 1));
-                }
-                Some("with") if self.is_vessel(phrase) => {
-                    self.position += 1;
-                    let with = self.phrases(depth + 1);
-                    if with.is_empty() {
-                        self.position = start;
-                        return;
-                    }
-                    phrase.with.extend(with);
-                    let _ = self.skip_back_reference();
-                }
-                Some("that" | "which" | "thats")
-                    if matches!(self.word_at(1), Some("is" | "are" | "was" | "were")) =>
-                {
-                    self.position += 2;
-                    if !self.adjective(phrase) && preposition(&self.rest()).is_none() {
-                        self.position = start;
-                        return;
-                    }
-                    self.where_it_is(phrase, depth);
-                }
-                Some("that" | "which")
-                    if matches!(self.word_at(1), Some("has" | "contains" | "have" | "holds")) =>
-                {
-                    self.position += 2;
-                    phrase.with.extend(self.phrases(depth + 1));
-                    let _ = self.skip_back_reference();
-                }
-                Some(
-                    "sitting" | "located" | "lying" | "laying" | "standing" | "resting" | "placed" | "found",
-                ) if self.position + 1 < self.words.len() && preposition(&self.rest()[1..]).is_some() => {
-                    self.position += 1;
-                    self.where_it_is(phrase, depth);
-                }
-                Some("except" | "excluding" | "but")
-                    if self.peek() != Some("but") || phrase.quantity == Quantity::All =>
-                {
-                    self.position += 1;
-                    if matches!(self.peek(), Some("for" | "from")) {
-                        self.position += 1;
-                    }
-                    phrase.except.extend(self.phrases(depth + 1));
-                }
-                Some("other") if self.word_at(1) == Some("than") => {
-                    self.position += 2;
-                    phrase.except.extend(self.phrases(depth + 1));
-                }
-                _ => return,
-            }
-            if self.position == start {
-                return;
-            }
-        }
-    }
-
-    fn is_vessel(&self, phrase: &Phrase) -> bool {
-        matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
-            self.scene.affords(kind, "receptacle") && self.scene.affords(kind, "pickupable")
-        }))
-    }
-
-    /// `in it`, `on it`, `inside`: says again where the contents are.
-    pub(super) fn skip_back_reference(&mut self) -> bool {
-        let start = self.position;
-        if let Some((_, length)) = preposition(&self.rest()) {
-            match self.word_at(length) {
-                Some("it" | "them") => self.position += length + 1,
-                next if next.is_none_or(|w| preposition(&[w]).is_some()) && self.peek() == Some("inside") => {
-                    self.position += length;
-                }
-                _ => {}
-            }
-        }
-        self.position > start
-    }
-
-    fn where_it_is(&mut self, phrase: &mut Phrase, depth: usize) {
-        if let Some((relation, length)) = preposition(&self.rest()) {
-            let start = self.position;
-            self.position += length;
-            match self.phrase(depth + 1) {
-                Some(at) => phrase.at.push(Place::new(relation, "", at)),
-                None => self.position = start,
-            }
-        }
-    }
-
     /// Noun phrases joined by "and" and commas, up to the next clause.
     pub(super) fn phrases(&mut self, depth: usize) -> Vec<Phrase> {
         let mut found = Vec::new();
@@ -533,19 +430,4 @@ impl Parser<'_> {
     }
 }
 
-/// "N1 of N2": the same thing said twice ("the light of the lamp") is N2; otherwise N2 is what N1 holds, or
-/// only says which N1 is meant.
-fn merge_of(phrase: &mut Phrase, of: Phrase) {
-    let overlap = match (&phrase.head, &of.head) {
-        (Head::Noun(a), Head::Noun(b)) => a.kinds.iter().any(|kind| b.kinds.contains(kind)),
-        _ => false,
-    };
-    if overlap {
-        phrase.head = of.head;
-    } else if matches!(phrase.head, Head::Slices) {
-        phrase.head = of.head;
-        phrase.quantity = if phrase.quantity == Quantity::All { Quantity::One } else { phrase.quantity };
-    } else {
-        phrase.with.push(of);
-    }
-}
+mod tail;

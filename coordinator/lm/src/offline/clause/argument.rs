@@ -1,0 +1,249 @@
+//! What stands behind a verb besides its objects: particles, complements, places.
+
+use super::super::lexicon::{Act, Verb};
+use super::super::syntax::{
+    Clause, Head, Phrase, Place, Relation, is_determiner, is_function_word, preposition,
+};
+use super::Parser;
+
+impl<'a> Parser<'a> {
+    /// "turn the lamp on", "put it away", "put it back".
+    pub(super) fn particle(&mut self, clause: &mut Clause<'a>) -> bool {
+        let Some(word) = self.peek() else { return false };
+        if word == "back" {
+            clause.back = true;
+            self.position += 1;
+            return true;
+        }
+        let first = clause.verb_text.split(' ').next().unwrap_or_default().to_owned();
+        if let Some((verb, length)) = self.long_particle(&first) {
+            clause.verbs = vec![verb];
+            self.position += length;
+            return true;
+        }
+        let next = self.word_at(1);
+        if preposition(&self.rest()).is_some_and(|(_, length)| length > 1) {
+            return false;
+        }
+        let free = next.is_none_or(|next| {
+            [",", ".", "and", "then", "before", "after", "while", "but", "again", "please", "so"]
+                .contains(&next)
+                || preposition(&[next]).is_some()
+                || self.lexicon.is_small("polite", &[next])
+        });
+        if clause.verb_text.is_empty() || !free {
+            return false;
+        }
+        let with_particle: Vec<&Verb> = self
+            .lexicon
+            .verbs(&first)
+            .into_iter()
+            .filter(|(_, particles, verb)| {
+                particles.len() == 1 && particles[0] == word && self.objects_may_fit(clause, verb)
+            })
+            .map(|(_, _, verb)| verb)
+            .collect();
+        if with_particle.is_empty() || clause.verb_text.contains(' ') {
+            return false;
+        }
+        if preposition(&[word]).is_some()
+            && next.is_some_and(|n| preposition(&[n]).is_none() && n != "," && n != "." && n != "and")
+        {
+            let known_end = next.is_some_and(|n| {
+                is_function_word(n) && !is_determiner(n) || self.lexicon.is_small("polite", &[n])
+            });
+            if !known_end {
+                return false;
+            }
+        }
+        clause.verbs = with_particle;
+        clause.verb_text = format!("{first} {word}");
+        self.position += 1;
+        true
+    }
+
+    /// "put it where it belongs": more than one word behind the object.
+    pub(super) fn long_particle(&self, first: &str) -> Option<(&'a Verb, usize)> {
+        let rest = self.rest();
+        self.lexicon.verbs(first).into_iter().find_map(|(_, particles, verb)| {
+            let fits = particles.len() > 2 && particles.iter().zip(&rest).all(|(a, b)| a == b);
+            (fits && rest.len() >= particles.len()).then_some((verb, particles.len()))
+        })
+    }
+
+    pub(super) fn objects_may_fit(&self, clause: &Clause<'a>, verb: &Verb) -> bool {
+        let Some(wants) = &verb.wants else { return true };
+        clause.objects.is_empty()
+            || clause.objects.iter().any(|phrase| match &phrase.head {
+                Head::Noun(noun) => self.can_be(noun, wants),
+                _ => true,
+            })
+    }
+
+    /// "keep the fridge closed", "make sure the light is off", "the lamp is on".
+    pub(super) fn complement(&mut self, clause: &mut Clause<'a>) -> bool {
+        if clause.objects.is_empty() {
+            return false;
+        }
+        let start = self.position;
+        while matches!(
+            self.peek(),
+            Some(
+                "is" | "are"
+                    | "be"
+                    | "being"
+                    | "stay"
+                    | "stays"
+                    | "remain"
+                    | "remains"
+                    | "were"
+                    | "was"
+                    | "get"
+                    | "gets"
+                    | "all"
+                    | "to"
+                    | "should"
+                    | "must"
+                    | "completely"
+                    | "fully"
+            )
+        ) {
+            if self.peek() == Some("to") && !matches!(self.word_at(1), Some("be" | "stay" | "remain")) {
+                break;
+            }
+            self.position += 1;
+        }
+        let negated = self.peek() == Some("not");
+        self.position += usize::from(negated);
+        let rest = self.rest();
+        for length in (1..=2.min(rest.len())).rev() {
+            let Some(adjective) = self.lexicon.adjective(&rest[..length]) else { continue };
+            let behind = rest.get(length);
+            let ends = behind.is_none_or(|next| {
+                [",", ".", "and", "then", "before", "after", "while", "but", "so", "again"].contains(next)
+                    || preposition(&[next]).is_some() && self.position > start
+            });
+            let particle = self.position == start && preposition(&rest[..length]).is_some();
+            if !ends
+                || (particle
+                    && clause.verbs.iter().all(|verb| verb.act != Act::Keep && verb.act != Act::Place))
+            {
+                continue;
+            }
+            for (property, value) in &adjective.set {
+                let value = if negated { super::super::opposite(value) } else { value.clone() };
+                clause.complement.insert(property.clone(), value);
+            }
+            self.position += length;
+            return true;
+        }
+        self.position = start;
+        false
+    }
+
+    /// A prepositional phrase.
+    pub(super) fn place(&mut self, clause: &mut Clause<'a>) -> bool {
+        let Some((relation, length)) = preposition(&self.rest()) else { return false };
+        let start = self.position;
+        self.position += length;
+        let Some(phrase) = self.phrase(0) else {
+            // A preposition with nothing behind it is an adverb: "with a spoon inside"; or what it is in was
+            // spoken of before: "put the tomato in".
+            self.position = start + length;
+            let ends = self.peek().is_none_or(|word| [".", ",", "and"].contains(&word));
+            if ends && self.wants_place && clause.places.is_empty() && &self.words[start] == "in" {
+                let it = Phrase::bare(Head::Pronoun { plural: false }, "it");
+                clause.places.push(Place::new(Relation::In, "in", it));
+            }
+            return true;
+        };
+        // "a mug in the sink with a spoon in it": the spoon is in the mug.
+        if relation == Relation::With
+            && self.skip_back_reference()
+            && let Some(object) = clause.objects.last_mut()
+        {
+            object.with.push(phrase);
+            return true;
+        }
+        let mut phrase = phrase;
+        if let (false, Some(object)) = (phrase.except.is_empty(), clause.objects.last_mut()) {
+            object.except.append(&mut phrase.except);
+        }
+        clause.places.push(Place::new(relation, &self.words[start], phrase));
+        self.more_places(clause, relation);
+        true
+    }
+
+    /// "in the fridge and the microwave": more of the same, unless a clause or another object follows.
+    pub(super) fn more_places(&mut self, clause: &mut Clause<'a>, relation: Relation) {
+        loop {
+            let start = self.position;
+            if !self.skip_joins() || self.clause_starts_here(false) {
+                self.position = start;
+                return;
+            }
+            let Some(phrase) = self.phrase(0) else {
+                self.position = start;
+                return;
+            };
+            let another_pair = relation != Relation::From && preposition(&self.rest()).is_some()
+                || matches!(self.peek(), Some("on" | "off"));
+            if another_pair {
+                self.position = start;
+                return;
+            }
+            let movable = self.is_movable(&phrase);
+            if movable && relation != Relation::With {
+                clause.objects.push(phrase);
+            } else {
+                clause.places.push(Place::new(relation, "", phrase));
+            }
+        }
+    }
+
+    pub(super) fn is_movable(&self, phrase: &Phrase) -> bool {
+        match &phrase.head {
+            Head::Noun(noun) => self.has_affordance(noun, "pickupable"),
+            _ => false,
+        }
+    }
+
+    /// "with a card in hand, turn on the lamp": places said before the verb.
+    pub(super) fn leading_places(&mut self, clause: &mut Clause<'a>) {
+        let start = self.position;
+        while let Some((relation, length)) = preposition(&self.rest()) {
+            if matches!(relation, Relation::To | Relation::For) || self.verbs_here().is_some() {
+                break;
+            }
+            self.position += length;
+            let Some(phrase) = self.phrase(0) else { break };
+            clause.places.push(Place::new(relation, "", phrase));
+        }
+        if self.peek() == Some(",") {
+            self.position += 1;
+        }
+        if self.verbs_here().is_none() {
+            clause.places.clear();
+            self.position = start;
+        }
+    }
+
+    /// "turn it on and then off": the verb is that of the clause before.
+    pub(super) fn particle_alone(&mut self, clause: &mut Clause<'a>, previous: Option<&Clause<'a>>) {
+        let (Some(previous), Some(word)) = (previous, self.peek()) else { return };
+        let first = previous.verb_text.split(' ').next().unwrap_or_default();
+        let verbs: Vec<&Verb> = self
+            .lexicon
+            .verbs(first)
+            .into_iter()
+            .filter(|(_, particles, _)| particles.len() == 1 && particles[0] == word)
+            .map(|(_, _, verb)| verb)
+            .collect();
+        if !verbs.is_empty() && self.word_at(1).is_none_or(|next| !is_determiner(next)) {
+            clause.verbs = verbs;
+            clause.verb_text = format!("{first} {word}");
+            clause.unknown.clear();
+            self.position += 1;
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What a thing can be: types that go together, states it can take, what switches it.
+
+use super::super::lexicon::Settings;
+use super::{Discourse, Which};
+
+impl Discourse<'_> {
+    /// A thing of a type, or all of the type, that a situation speaks of.
+    pub fn entity(&mut self, kind: &str, which: Which) -> usize {
+        let known = self.entities.iter().position(|entity| entity.kind() == kind && entity.which == which);
+        known.unwrap_or_else(|| self.add(vec![kind.to_owned()], which, kind))
+    }
+
+    /// A thing of a type that was not named itself.
+    pub fn place_of_kind(&mut self, kind: &str) -> usize {
+        let known = self.entities.iter().position(|entity| entity.kind() == kind);
+        known.unwrap_or_else(|| self.add(vec![kind.to_owned()], Which::Any, kind))
+    }
+
+    /// What switches an entity: one of them to be on, all of them to be off.
+    pub fn control(&mut self, entity: usize, control: String, on: bool) -> usize {
+        let text = self.entities[entity].text.clone();
+        self.assume(format!("\"{text}\" is switched by the {control}"), 0.98);
+        let many = self.scene.of_kind(&control).len() > 1;
+        let which = if on || !many { Which::Any } else { Which::All };
+        let known = self.entities.iter().position(|e| e.kind() == control);
+        known.unwrap_or_else(|| self.add(vec![control], which, &text))
+    }
+
+    /// Lets the receptacle and the thing decide what each other is: the best pair of types that go together.
+    pub fn fit(&mut self, entity: usize, place: usize) {
+        let (things, places) = (self.entities[entity].kinds.clone(), self.entities[place].kinds.clone());
+        let mut best: Option<(usize, &str, &str)> = None;
+        for (i, thing) in things.iter().enumerate() {
+            for (j, place) in places.iter().enumerate() {
+                let rank = 2 * (i + j) + if self.scene.surely_accepts(place, thing) { 0 } else { 3 };
+                if self.scene.accepts(place, thing) && best.is_none_or(|(known, _, _)| rank < known) {
+                    best = Some((rank, thing, place));
+                }
+            }
+        }
+        let Some((_, _, chosen)) = best else {
+            let (thing, place) =
+                (self.entities[entity].kind().to_owned(), self.entities[place].kind().to_owned());
+            self.assume(format!("a {place} is not known to take a {thing}"), 0.8);
+            return;
+        };
+        let chosen = chosen.to_owned();
+        let scene = self.scene;
+        self.entities[entity].kinds.retain(|thing| scene.accepts(&chosen, thing));
+        let thing = self.entities[entity].kind().to_owned();
+        let place = &mut self.entities[place].kinds;
+        place.retain(|kind| scene.accepts(kind, &thing));
+        place.sort_by_key(|kind| *kind != chosen);
+    }
+
+    /// Asked-for states, with "cooked" read as "hot" for what nothing can cook.
+    pub fn possible_states(&self, entity: usize, states: Settings) -> Settings {
+        states
+            .into_iter()
+            .map(|(property, value)| {
+                if property == "isCooked" && !self.can_be_cooked(self.entities[entity].kind()) {
+                    ("temperature".to_owned(), lamma_domains::goal::PropertyValue::Word("Hot".to_owned()))
+                } else {
+                    (property, value)
+                }
+            })
+            .collect()
+    }
+
+    fn can_be_cooked(&self, kind: &str) -> bool {
+        self.scene.affords(kind, "cookable") || self.cooks_in_slices(kind)
+    }
+
+    fn cooks_in_slices(&self, kind: &str) -> bool {
+        self.lexicon.is_small("cooked_in_slices", &[&kind.to_lowercase()])
+    }
+
+    /// The states a verb brings to a thing of this kind; notes what is not possible.
+    pub fn adapted_states(&mut self, entity: usize, verb: &super::super::lexicon::Verb) -> Settings {
+        let kind = self.entities[entity].kind().to_owned();
+        let mut states = self.possible_states(entity, verb.set.clone());
+        if states.contains_key("isCooked")
+            && self.cooks_in_slices(&kind)
+            && states.insert("isSliced".to_owned(), super::super::yes()).is_none()
+        {
+            self.assume(format!("only slices of the {kind} can be cooked"), 0.99);
+        }
+        for property in states.keys() {
+            let needed = match property.as_str() {
+                "isOpen" => "openable",
+                "isToggled" => "toggleable",
+                "isSliced" => "sliceable",
+                "isBroken" => "breakable",
+                _ => continue,
+            };
+            if !self.scene.affords(&kind, needed) && !self.entities[entity].kinds.is_empty() {
+                let text = self.entities[entity].text.clone();
+                self.problem(format!("\"{text}\" ({kind}) is not {needed}"), 0.3);
+            }
+        }
+        if verb.set.contains_key("isCooked") && states.contains_key("temperature") {
+            self.assume(format!("cooking the {kind} means heating it"), 0.97);
+        }
+        states
+    }
+}

@@ -1,0 +1,105 @@
+//! Words that stand for what was spoken of: pronouns, "the slices", "everything", "the rest".
+
+use std::collections::BTreeSet;
+
+use super::super::syntax::{Phrase, Place};
+use super::{Discourse, Which};
+
+impl Discourse<'_> {
+    pub(super) fn slices(&mut self) -> Vec<usize> {
+        let last = (0..self.entities.len())
+            .rev()
+            .find(|&e| self.entities[e].kinds.iter().any(|kind| self.scene.affords(kind, "sliceable")));
+        if last.is_none() {
+            self.problem("it is not said what the slices are of".to_owned(), 0.3);
+        }
+        last.into_iter().collect()
+    }
+
+    pub(super) fn everything(&mut self, phrase: &Phrase, at: &[Place]) -> Vec<usize> {
+        let places: Vec<&Place> = phrase.at.iter().chain(at).collect();
+        let except = self.exceptions(&phrase.except);
+        let mentioned: BTreeSet<String> = if phrase.other {
+            self.entities.iter().map(|e| e.kind().to_owned()).collect()
+        } else {
+            BTreeSet::new()
+        };
+        if places.is_empty() && !phrase.other {
+            self.assume(format!("\"{}\" means every single thing that can be carried", phrase.text), 0.45);
+        }
+        let chosen: Vec<(String, String)> = self
+            .scene
+            .kinds()
+            .flat_map(|kind| self.scene.of_kind(kind))
+            .filter(|object| object.affordances.iter().any(|a| a == "pickupable"))
+            .filter(|object| places.iter().all(|place| self.is_at(object, place)))
+            .filter(|object| !except.contains(&object.kind) && !except.contains(&object.name))
+            .filter(|object| !mentioned.contains(&object.kind))
+            .map(|object| (object.kind.clone(), object.name.clone()))
+            .collect();
+        if chosen.is_empty() {
+            self.problem(format!("there is nothing that \"{}\" could mean", phrase.text), 0.3);
+        }
+        chosen
+            .into_iter()
+            .map(|(kind, name)| self.add(vec![kind], Which::Named(name), &phrase.text))
+            .collect()
+    }
+
+    pub(super) fn pronoun(&mut self, plural: bool, wants: Option<&str>) -> Vec<usize> {
+        let fits = |this: &Self, group: &[usize]| {
+            !group.is_empty()
+                && wants.is_none_or(|wants| {
+                    group.iter().all(|&e| this.entities[e].kinds.iter().any(|kind| this.affords(kind, wants)))
+                })
+        };
+        let last = self.spoken.iter().rev().find(|s| !s.objects.is_empty() || !s.places.is_empty());
+        // "put the fork in the cup and put it in the sink": the cup goes, with the fork in it.
+        if let Some(spoken) = last
+            && spoken.placed
+            && wants == Some("pickupable")
+            && !plural
+            && fits(self, &spoken.places)
+        {
+            return spoken.places.clone();
+        }
+        // "put the pen in the cup and put them on the desk": again the cup, with what is in it.
+        if let Some(spoken) = last
+            && spoken.placed
+            && plural
+            && wants == Some("pickupable")
+            && spoken.objects.len() == 1
+            && fits(self, &spoken.places)
+        {
+            return spoken.places.clone();
+        }
+        if plural {
+            let mut all: Vec<usize> = Vec::new();
+            for spoken in self.spoken.iter().rev() {
+                for &object in &spoken.objects {
+                    if fits(self, &[object]) && !all.contains(&object) {
+                        all.push(object);
+                    }
+                }
+                let many = all.len() > 1 || all.iter().any(|&e| self.entities[e].which == Which::All);
+                if many {
+                    break;
+                }
+            }
+            all.sort_unstable();
+            if !all.is_empty() {
+                return all;
+            }
+        }
+        for spoken in self.spoken.iter().rev() {
+            for group in [&spoken.objects, &spoken.places] {
+                if fits(self, group) {
+                    return group.clone();
+                }
+            }
+        }
+        let word = if plural { "them" } else { "it" };
+        self.problem(format!("it is not said what \"{word}\" is"), 0.3);
+        Vec::new()
+    }
+}

@@ -1,0 +1,136 @@
+//! What follows the head of a noun phrase: contents, places, exceptions.
+
+use super::super::clause::Parser;
+use super::super::syntax::{Head, Phrase, Place, Quantity, preposition};
+
+impl Parser<'_> {
+    /// What follows the head: contents, places, exceptions.
+    pub(super) fn after_head(&mut self, phrase: &mut Phrase, depth: usize) {
+        loop {
+            let start = self.position;
+            match self.peek() {
+                Some("of") => {
+                    self.position += 1;
+                    if let Some(of) = self.phrase(depth + 1) {
+                        merge_of(phrase, of);
+                    }
+                }
+                Some(",")
+                    if matches!(self.word_at(1), Some("containing" | "holding"))
+                        || self.word_at(1) == Some("with") && self.is_vessel(phrase) =>
+                {
+                    self.position += 2;
+                    phrase.with.extend(self.phrases(depth + 1));
+                    let _ = self.skip_back_reference();
+                }
+                Some("containing" | "holding") => {
+                    self.position += 1;
+                    phrase.with.extend(self.phrases(depth + 1));
+                }
+                Some("filled" | "full") if matches!(self.word_at(1), Some("with" | "of")) => {
+                    self.position += 2;
+                    phrase.with.extend(self.phrases(depth + 1));
+                }
+                Some("with") if self.is_vessel(phrase) => {
+                    self.position += 1;
+                    let with = self.phrases(depth + 1);
+                    if with.is_empty() {
+                        self.position = start;
+                        return;
+                    }
+                    phrase.with.extend(with);
+                    let _ = self.skip_back_reference();
+                }
+                Some("that" | "which" | "thats")
+                    if matches!(self.word_at(1), Some("is" | "are" | "was" | "were")) =>
+                {
+                    self.position += 2;
+                    if !self.adjective(phrase) && preposition(&self.rest()).is_none() {
+                        self.position = start;
+                        return;
+                    }
+                    self.where_it_is(phrase, depth);
+                }
+                Some("that" | "which")
+                    if matches!(self.word_at(1), Some("has" | "contains" | "have" | "holds")) =>
+                {
+                    self.position += 2;
+                    phrase.with.extend(self.phrases(depth + 1));
+                    let _ = self.skip_back_reference();
+                }
+                Some(
+                    "sitting" | "located" | "lying" | "laying" | "standing" | "resting" | "placed" | "found",
+                ) if self.position + 1 < self.words.len() && preposition(&self.rest()[1..]).is_some() => {
+                    self.position += 1;
+                    self.where_it_is(phrase, depth);
+                }
+                Some("except" | "excluding" | "but")
+                    if self.peek() != Some("but") || phrase.quantity == Quantity::All =>
+                {
+                    self.position += 1;
+                    if matches!(self.peek(), Some("for" | "from")) {
+                        self.position += 1;
+                    }
+                    phrase.except.extend(self.phrases(depth + 1));
+                }
+                Some("other") if self.word_at(1) == Some("than") => {
+                    self.position += 2;
+                    phrase.except.extend(self.phrases(depth + 1));
+                }
+                _ => return,
+            }
+            if self.position == start {
+                return;
+            }
+        }
+    }
+
+    pub(super) fn is_vessel(&self, phrase: &Phrase) -> bool {
+        matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
+            self.scene.affords(kind, "receptacle") && self.scene.affords(kind, "pickupable")
+        }))
+    }
+
+    /// `in it`, `on it`, `inside`: says again where the contents are.
+    pub(in crate::offline) fn skip_back_reference(&mut self) -> bool {
+        let start = self.position;
+        if let Some((_, length)) = preposition(&self.rest()) {
+            match self.word_at(length) {
+                Some("it" | "them") => self.position += length + 1,
+                next if next.is_none_or(|w| preposition(&[w]).is_some()) && self.peek() == Some("inside") => {
+                    self.position += length;
+                }
+                _ => {}
+            }
+        }
+        self.position > start
+    }
+
+    pub(super) fn where_it_is(&mut self, phrase: &mut Phrase, depth: usize) {
+        if let Some((relation, length)) = preposition(&self.rest()) {
+            let start = self.position;
+            self.position += length;
+            match self.phrase(depth + 1) {
+                Some(at) => phrase.at.push(Place::new(relation, "", at)),
+                None => self.position = start,
+            }
+        }
+    }
+}
+
+/// "N1 of N2": the same thing said twice ("the light of the lamp") is N2; otherwise N2 is what N1 holds, or
+/// only says which N1 is meant.
+fn merge_of(phrase: &mut Phrase, of: Phrase) {
+    let overlap = match (&phrase.head, &of.head) {
+        (Head::Noun(a), Head::Noun(b)) => a.kinds.iter().any(|kind| b.kinds.contains(kind)),
+        _ => false,
+    };
+    if overlap {
+        phrase.head = of.head;
+    } else if matches!(phrase.head, Head::Slices) {
+        phrase.head = of.head;
+        phrase.quantity = if phrase.quantity == Quantity::All { Quantity::One } else { phrase.quantity };
+    } else {
+        phrase.with.push(of);
+    }
+}
