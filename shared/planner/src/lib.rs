@@ -4,22 +4,19 @@ mod csr;
 pub mod ground;
 pub mod heuristic;
 mod id_table;
+pub mod interpreter;
 mod lifted;
 pub mod plan;
 pub mod search;
 mod successor;
 pub mod task;
+pub mod validate;
 
 pub use ground::{GroundError, GroundLimits, ground};
+pub use interpreter::{GroundAction, GroundCondition, GroundEffect, Interpreter, WorldState};
 pub use plan::{GroundAct, Literal, Plan};
 pub use search::{
     Engine, GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, plan, relaxed_plan_cost, solve,
 };
 pub use task::{FactId, OperatorId, State, Task};
-pub mod interpreter;
-pub mod plan;
-pub mod validate;
-
-pub use interpreter::{GroundAction, GroundCondition, GroundEffect, Interpreter, WorldState};
-pub use plan::{GroundAct, Literal, Plan};
 pub use validate::{Verdict, read_plan, validate, write_plan};

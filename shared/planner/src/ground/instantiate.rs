@@ -163,7 +163,7 @@ impl<'a> Builder<'a> {
             let (atom, holds) = match &schema.conditional[effect as usize] {
                 Change::Add(atom) => (atom, true),
                 Change::Delete(atom) => (atom, false),
-                Change::Assign { .. } => continue,
+                Change::Assign => continue,
             };
             // The first atom says that the action was reached, the second of a delete that it can matter.
             let skip = if holds { 1 } else { 2 };
@@ -209,7 +209,7 @@ impl<'a> Builder<'a> {
                 let (atom, holds) = match change {
                     Change::Add(atom) => (atom, true),
                     Change::Delete(atom) => (atom, false),
-                    Change::Assign { .. } => continue,
+                    Change::Assign => continue,
                 };
                 // Atoms that are never true need no delete.
                 if let Value::Open(lit) = self.world.literal(atom, true, &binding) {

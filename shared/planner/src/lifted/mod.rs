@@ -10,7 +10,7 @@ mod rules;
 mod symbols;
 
 use lamma_pddl::Name;
-use lamma_pddl::ast::{ArithmeticOp, AssignOp, Comparison, Decimal};
+use lamma_pddl::ast::{ArithmeticOp, Comparison, Decimal};
 
 pub(crate) use resolve::free_variables;
 pub(crate) use rules::lift;
@@ -119,7 +119,9 @@ pub(crate) struct Rule {
 pub(crate) enum Change {
     Add(LiftedAtom),
     Delete(LiftedAtom),
-    Assign { op: AssignOp, target: LiftedAtom, value: Expr },
+    /// A number changes that no condition reads and no metric counts, so the search leaves it out.
+    /// (Reading one is refused while grounding.)
+    Assign,
 }
 
 /// An action schema without its conditions, which are rules.
