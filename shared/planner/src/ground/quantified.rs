@@ -31,6 +31,11 @@ enum Expanded {
 }
 
 impl Expander {
+    /// Forgets the expansions of a rule, so that its number can be used again.
+    pub fn forget(&mut self, rule: u32) {
+        self.known.retain(|((known, _), _), _| *known != rule);
+    }
+
     /// Expands `forall` into literals at the end of `out`; false if it cannot hold.
     #[allow(clippy::too_many_arguments)]
     pub fn expand(

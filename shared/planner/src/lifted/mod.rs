@@ -148,6 +148,8 @@ pub(crate) struct Lifted {
     pub rules: Vec<Rule>,
     /// The goal as one body over no variables.
     pub goal: Body,
+    /// The text of each of the goal's universally quantified parts.
+    pub goal_foralls: Vec<String>,
     /// Initially true atoms: predicate and objects.
     pub init: Vec<(u32, Vec<u32>)>,
     /// Initial numbers: function and objects.

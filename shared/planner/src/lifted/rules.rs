@@ -45,12 +45,15 @@ pub(crate) fn lift(domain: &Domain, problem: &Problem) -> Result<Lifted, GroundE
             }
         }
     }
+    let text = |part: &Formula| describe::formula(part, &lifter.symbols, &scope.names);
+    let goal_foralls = goal_body.foralls.iter().map(text).collect();
     let Lifter { symbols, rules, explained } = lifter;
     Ok(Lifted {
         symbols,
         schemas,
         rules,
         goal: goal_body,
+        goal_foralls,
         init,
         values,
         has_costs: !metric.is_empty(),
