@@ -124,6 +124,7 @@ fn the_unreachable_part_of_the_goal_is_named() {
     assert_eq!(unreachable("(and (in Apple_1 Fridge_1) (in Knife_2 Counter_1))"), ["(in Knife_2 Counter_1)"]);
     assert_eq!(unreachable("(exists (?k - Knife) (hot Fridge_1))"), ["(hot Fridge_1)"]);
     assert_eq!(unreachable("(exists (?a - Apple ?l - Lettuce) (in ?a ?l))"), ["(exists (?a ?l) (in ?a ?l))"]);
+    assert_eq!(unreachable("(forall (?x - food) (in ?x Counter_2))"), ["(forall (?x) (in ?x Counter_2))"]);
     assert_eq!(unreachable("(polished Apple_1)"), ["(polished Apple_1)"], "a predicate nobody declared");
 }
 

@@ -1,6 +1,8 @@
 //! Random small tasks with everything the language offers, compared with an exhaustive search that uses the
 //! plain executor only: the planner finds a plan exactly where there is one, and the plan is right.
 
+#[path = "support/random.rs"]
+mod random;
 mod support;
 
 use std::collections::{BTreeSet, VecDeque};
@@ -9,215 +11,11 @@ use std::sync::atomic::AtomicBool;
 use lamma_pddl::Name;
 use lamma_pddl::ast::*;
 use lamma_planner::{
-    Engine, GroundLimits, Limits, Outcome, SearchOptions, Unsolvable, ground, hmax_unit, solve,
+    Engine, GroundLimits, Limits, Outcome, SearchOptions, Unsolvable, Verdict, ground, hmax_unit, solve,
+    validate,
 };
+use random::task;
 use support::{Executor, World};
-
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) % n as u64) as usize
-    }
-    fn chance(&mut self, percent: usize) -> bool {
-        self.below(100) < percent
-    }
-    fn pick<'a, T>(&mut self, from: &'a [T]) -> &'a T {
-        &from[self.below(from.len())]
-    }
-}
-
-/// Predicates with the types of their parameters; `s` and `t` are static, `d` is derived.
-const PREDICATES: [(&str, &[&str]); 7] = [
-    ("p", &["a"]),
-    ("q", &["b"]),
-    ("r", &["a", "b"]),
-    ("g", &[]),
-    ("s", &["a", "b"]),
-    ("t", &["a"]),
-    ("d", &["a"]),
-];
-const OBJECTS: [(&str, &str); 4] = [("a1", "a"), ("a2", "a"), ("b1", "b"), ("b2", "b")];
-
-type Scope = Vec<(String, &'static str)>;
-
-fn atom(random: &mut Random, scope: &Scope, choices: &[usize]) -> Option<Atom> {
-    let (name, types) = PREDICATES[*random.pick(choices)];
-    let mut args = Vec::new();
-    for of in types {
-        let mut terms: Vec<Term> =
-            scope.iter().filter(|(_, t)| t == of).map(|(v, _)| Term::Variable(Name::new(v))).collect();
-        if terms.is_empty() || random.chance(15) {
-            terms =
-                OBJECTS.iter().filter(|(_, t)| t == of).map(|(o, _)| Term::Constant(Name::new(o))).collect();
-        }
-        args.push(random.pick(&terms).clone());
-    }
-    Some(Atom { predicate: Name::new(name), args })
-}
-
-fn quantified(random: &mut Random, scope: &Scope) -> (Vec<TypedName>, Scope) {
-    let of = if random.chance(50) { "a" } else { "b" };
-    let name = format!("v{}", scope.len());
-    let mut inner = scope.clone();
-    inner.push((name.clone(), of));
-    (vec![TypedName::new(name, of)], inner)
-}
-
-fn condition(random: &mut Random, scope: &Scope, depth: usize, derived: bool) -> Condition {
-    let all: &[usize] = if derived { &[0, 1, 2, 3, 4, 5, 6] } else { &[0, 1, 2, 3, 4, 5] };
-    let kind = if depth == 0 { random.below(40) } else { random.below(100) };
-    let parts = |random: &mut Random| {
-        (0..1 + random.below(3)).map(|_| condition(random, scope, depth.saturating_sub(1), derived)).collect()
-    };
-    match kind {
-        0..30 => Condition::Atom(atom(random, scope, all).expect("a scope")),
-        // Derived predicates are not negated: the plain executor does not stratify.
-        30..40 => Condition::Not(Box::new(Condition::Atom(
-            atom(random, scope, &[0, 1, 2, 3, 4, 5]).expect("a scope"),
-        ))),
-        40..55 => Condition::And(parts(random)),
-        55..68 => Condition::Or(parts(random)),
-        68..76 => Condition::Not(Box::new(condition(random, scope, depth - 1, false))),
-        76..82 => Condition::Imply(
-            Box::new(condition(random, scope, depth - 1, false)),
-            Box::new(condition(random, scope, depth - 1, derived)),
-        ),
-        82..96 => {
-            let (variables, inner) = quantified(random, scope);
-            let body = Box::new(condition(random, &inner, depth - 1, derived));
-            if random.chance(50) {
-                Condition::Exists(variables, body)
-            } else {
-                Condition::Forall(variables, body)
-            }
-        }
-        _ => {
-            let terms: Vec<Term> = scope
-                .iter()
-                .map(|(v, _)| Term::Variable(Name::new(v)))
-                .chain(OBJECTS.iter().map(|(o, _)| Term::Constant(Name::new(o))))
-                .collect();
-            Condition::Equal(random.pick(&terms).clone(), random.pick(&terms).clone())
-        }
-    }
-}
-
-fn effect(random: &mut Random, scope: &Scope, depth: usize) -> Effect {
-    match if depth == 0 { random.below(50) } else { random.below(100) } {
-        0..28 => Effect::Add(atom(random, scope, &[0, 1, 2, 3]).expect("a scope")),
-        28..50 => Effect::Delete(atom(random, scope, &[0, 1, 2, 3]).expect("a scope")),
-        50..70 => Effect::And((0..1 + random.below(3)).map(|_| effect(random, scope, depth - 1)).collect()),
-        70..85 => {
-            let (variables, inner) = quantified(random, scope);
-            Effect::Forall(variables, Box::new(effect(random, &inner, depth - 1)))
-        }
-        _ => Effect::When(condition(random, scope, 2, true), Box::new(effect(random, scope, depth - 1))),
-    }
-}
-
-fn task(seed: u64) -> (Domain, Problem) {
-    let mut random = Random(seed);
-    let actions = (0..2 + random.below(3))
-        .map(|index| {
-            let mut scope = Scope::new();
-            let mut params = Vec::new();
-            for at in 0..random.below(3) {
-                let of = if random.chance(50) { "a" } else { "b" };
-                scope.push((format!("x{at}"), of));
-                params.push(TypedName::new(format!("x{at}"), of));
-            }
-            let precondition = condition(&mut random, &scope, 3, true);
-            Action {
-                name: Name::new(format!("act{index}")),
-                agent: None,
-                params,
-                precondition,
-                effect: Effect::And(
-                    (0..1 + random.below(3)).map(|_| effect(&mut random, &scope, 3)).collect(),
-                ),
-                duration: None,
-            }
-        })
-        .collect();
-    let predicates = PREDICATES
-        .iter()
-        .map(|(name, types)| Signature {
-            name: Name::new(name),
-            params: types.iter().enumerate().map(|(at, of)| TypedName::new(format!("x{at}"), *of)).collect(),
-            private_to: None,
-        })
-        .collect();
-    let axioms = (0..random.below(3))
-        .map(|_| {
-            let scope = vec![("x".to_string(), "a")];
-            Axiom {
-                head: Signature {
-                    name: Name::new("d"),
-                    params: vec![TypedName::new("x", "a")],
-                    private_to: None,
-                },
-                body: condition(&mut random, &scope, 2, true),
-            }
-        })
-        .filter(|axiom| !negates_derived(&axiom.body, true))
-        .collect();
-    let mut init = Vec::new();
-    for (name, types) in &PREDICATES[..6] {
-        let mut rows = vec![Vec::new()];
-        for of in *types {
-            rows = rows
-                .into_iter()
-                .flat_map(|row: Vec<&str>| {
-                    OBJECTS
-                        .iter()
-                        .filter(|(_, t)| t == of)
-                        .map(move |(o, _)| [row.clone(), vec![*o]].concat())
-                })
-                .collect();
-        }
-        let chosen = rows.into_iter().filter(|_| random.chance(35)).collect::<Vec<_>>();
-        init.extend(chosen.into_iter().map(|row| Init::Fact(GroundAtom::new(*name, row))));
-    }
-    let goal = Condition::And(
-        (0..1 + random.below(3)).map(|_| condition(&mut random, &Scope::new(), 3, true)).collect(),
-    );
-    let domain = Domain {
-        name: Name::new("random"),
-        requirements: Vec::new(),
-        types: vec![TypedName::new("a", "object"), TypedName::new("b", "object")],
-        constants: OBJECTS.iter().map(|(o, of)| TypedName::new(*o, *of)).collect(),
-        predicates,
-        functions: Vec::new(),
-        actions,
-        axioms,
-    };
-    let problem = Problem {
-        name: Name::new("p"),
-        domain: Name::new("random"),
-        objects: Vec::new(),
-        init,
-        goal,
-        metric: None,
-    };
-    (domain, problem)
-}
-
-fn negates_derived(condition: &Condition, positive: bool) -> bool {
-    match condition {
-        Condition::Atom(atom) => !positive && atom.predicate == "d",
-        Condition::And(parts) | Condition::Or(parts) => parts.iter().any(|p| negates_derived(p, positive)),
-        Condition::Not(inner) => negates_derived(inner, !positive),
-        Condition::Imply(a, b) => negates_derived(a, !positive) || negates_derived(b, positive),
-        Condition::Exists(_, inner) | Condition::Forall(_, inner) => negates_derived(inner, positive),
-        Condition::Equal(..) | Condition::Compare(..) => false,
-    }
-}
 
 /// The length of a shortest plan, by breadth-first search over everything.
 fn shortest(executor: &Executor<'_>) -> Option<usize> {
@@ -272,6 +70,9 @@ fn plans_exist_exactly_where_exhaustive_search_finds_them() {
                 let checked = executor.check(plan);
                 assert!(checked.is_ok(), "seed {seed}: {checked:?} in {plan:?}");
                 assert!(plan.acts.len() >= length, "seed {seed}");
+                let verdict = validate(&domain, &problem, &plan.acts);
+                let valid = matches!(verdict, Ok(Verdict::Valid { .. }));
+                assert!(valid, "seed {seed}: the interpreter says {verdict:?} of {plan:?}");
                 assert!(
                     hmax_unit(&task).is_some_and(|h| h as usize <= length),
                     "seed {seed}: h_max overestimates"

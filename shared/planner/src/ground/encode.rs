@@ -27,8 +27,16 @@ pub(crate) fn encode(
     encoder.initial_state();
     encoder.operators();
     encoder.axioms()?;
-    let goal: Vec<FactId> = ground.lits(ground.goal).iter().map(|&lit| encoder.fact(lit)).collect();
+    let goal = encoder.conditions(ground.goal);
+    let clash = goal
+        .windows(2)
+        .find(|pair| encoder.variable(pair[0]) == encoder.variable(pair[1]))
+        .map(<[_]>::to_vec);
     let Encoder { mut task, .. } = encoder;
+    if let Some(pair) = clash {
+        let texts: Vec<String> = pair.iter().map(|&fact| task.fact_text(fact)).collect();
+        task.impossible.push(format!("{} (they exclude each other)", texts.join(" together with ")));
+    }
     task.goal = goal;
     let mut init = std::mem::take(&mut task.init);
     task.evaluate_axioms(&mut init);
@@ -133,9 +141,9 @@ impl Encoder<'_> {
             }
         }
         for derived in [false, true] {
-            for atom in 0..atoms {
+            for (atom, &asked_false) in asked_false.iter().enumerate() {
                 let wanted = ground.relevant[atom] && ground.derived[atom] == derived;
-                if wanted && (self.atoms[atom].group.is_none() || asked_false[atom]) {
+                if wanted && (self.atoms[atom].group.is_none() || asked_false) {
                     let atom = atom as u32;
                     let first =
                         layout.add(&mut self.task, [Some((atom, false)), Some((atom, true))].into_iter());

@@ -163,7 +163,7 @@ impl<'a> Builder<'a> {
             let (atom, holds) = match &schema.conditional[effect as usize] {
                 Change::Add(atom) => (atom, true),
                 Change::Delete(atom) => (atom, false),
-                Change::Assign { .. } => continue,
+                Change::Assign => continue,
             };
             // The first atom says that the action was reached, the second of a delete that it can matter.
             let skip = if holds { 1 } else { 2 };
@@ -209,7 +209,7 @@ impl<'a> Builder<'a> {
                 let (atom, holds) = match change {
                     Change::Add(atom) => (atom, true),
                     Change::Delete(atom) => (atom, false),
-                    Change::Assign { .. } => continue,
+                    Change::Assign => continue,
                 };
                 // Atoms that are never true need no delete.
                 if let Value::Open(lit) = self.world.literal(atom, true, &binding) {
@@ -288,7 +288,21 @@ impl<'a> Builder<'a> {
                 self.ground.impossible.push(text);
             }
         }
+        for atom in &body.absent {
+            if let Value::Constant(false) = self.world.literal(atom, false, &binding) {
+                let text = format!("(not {})", self.world.describe(atom));
+                self.ground.impossible.push(text);
+            }
+        }
         let mut lits = Vec::new();
+        for (forall, text) in body.foralls.iter().zip(&lifted.goal_foralls) {
+            let alone =
+                Body { variables: body.variables.clone(), foralls: vec![forall.clone()], ..Body::default() };
+            if !self.condition(u32::MAX - 1, &alone, 0, &mut binding, &mut lits)? {
+                self.ground.impossible.push(text.clone());
+            }
+            self.expander.forget(u32::MAX - 1);
+        }
         let possible = self.condition(u32::MAX, body, 0, &mut binding, &mut lits)?;
         if (!possible || body.never) && self.ground.impossible.is_empty() {
             self.ground.impossible.push("the goal contradicts itself or what never changes".into());

@@ -11,13 +11,16 @@ use super::join::UNBOUND;
 use super::propositional::{Ground, GroundRule, Lit};
 use crate::lifted::{Formula, Role};
 
+/// A rule, its quantified condition, and the values of the free variables.
+type Instance = ((u32, u32), Vec<u32>);
+
 /// Expands conditions and remembers the disjunctions it made.
 #[derive(Default)]
 pub(super) struct Expander {
     /// Disjunctions that were made before: their parts, and the derived atom that stands for them.
     made: HashMap<Vec<Vec<Lit>>, u32>,
     /// Expansions by rule, quantifier, and the values of the free variables.
-    known: HashMap<((u32, u32), Vec<u32>), Option<Vec<Lit>>>,
+    known: HashMap<Instance, Option<Vec<Lit>>>,
 }
 
 /// A ground condition: a constant, or a disjunction of conjunctions.
@@ -28,6 +31,11 @@ enum Expanded {
 }
 
 impl Expander {
+    /// Forgets the expansions of a rule, so that its number can be used again.
+    pub fn forget(&mut self, rule: u32) {
+        self.known.retain(|((known, _), _), _| *known != rule);
+    }
+
     /// Expands `forall` into literals at the end of `out`; false if it cannot hold.
     #[allow(clippy::too_many_arguments)]
     pub fn expand(

@@ -136,7 +136,7 @@ impl Finder<'_> {
         self.agenda.extend(self.task.facts_of(&self.task.init));
         self.agenda.extend_from_slice(&graph.free_facts);
         self.agenda.iter().for_each(|fact| self.reached[fact.index()] = true);
-        let mut fire = |node: u32, reached: &mut Vec<bool>, agenda: &mut Vec<FactId>| {
+        let fire = |node: u32, reached: &mut Vec<bool>, agenda: &mut Vec<FactId>| {
             for fact in graph.effects.row(node as usize) {
                 if !reached[fact.index()] && !facts.contains(fact) {
                     reached[fact.index()] = true;

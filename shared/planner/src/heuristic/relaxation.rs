@@ -161,11 +161,6 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// How much there is to look at in one evaluation, at most.
-    pub(crate) fn size(&self) -> usize {
-        self.graph.size()
-    }
-
     /// h_max of a state with this graph's costs; `None` if the goal is out of reach.
     pub fn hmax(&mut self, state: &[u64]) -> Option<u32> {
         self.propagate::<true>(state, false);

@@ -40,12 +40,13 @@ pub(super) fn cost_functions(
             match effect {
                 Effect::And(parts) => agenda.extend(parts.iter().map(|part| (part, plain))),
                 Effect::Forall(_, inner) | Effect::When(_, inner) => agenda.push((inner, false)),
-                Effect::Assign(op, target, value) if names.contains(&target.function) => {
-                    if !plain || *op != AssignOp::Increase || !is_static(symbols, value) {
+                Effect::Assign(op, target, value) => {
+                    let known = plain && *op == AssignOp::Increase && is_static(symbols, value);
+                    if names.contains(&target.function) && !known {
                         return false;
                     }
                 }
-                _ => {}
+                Effect::Add(_) | Effect::Delete(_) => {}
             }
         }
         true
@@ -69,17 +70,18 @@ pub(super) fn split(
     scope: &mut Scope,
     effect: &Effect,
     metric: &[LiftedAtom],
-) -> Result<(Vec<Change>, Vec<Conditional>, Vec<Expr>), GroundError> {
+) -> Result<Parts, GroundError> {
     let mut parts = Parts { plain: Vec::new(), conditional: Vec::new(), cost: Vec::new() };
     let context = Context { quantified: Vec::new(), condition: Formula::And(Vec::new()) };
     parts.collect(lifter, scope, effect, &context, metric, 0)?;
-    Ok((parts.plain, parts.conditional, parts.cost))
+    Ok(parts)
 }
 
-struct Parts {
-    plain: Vec<Change>,
-    conditional: Vec<Conditional>,
-    cost: Vec<Expr>,
+/// An effect, taken apart.
+pub(super) struct Parts {
+    pub plain: Vec<Change>,
+    pub conditional: Vec<Conditional>,
+    pub cost: Vec<Expr>,
 }
 
 #[derive(Clone)]
@@ -124,14 +126,14 @@ impl Parts {
             }
             Effect::Add(of) => Change::Add(atom(symbols, scope, of)?),
             Effect::Delete(of) => Change::Delete(atom(symbols, scope, of)?),
-            Effect::Assign(op, target, value) => {
+            Effect::Assign(_, target, value) => {
                 let target = function(symbols, scope, target)?;
                 let value = expression(symbols, scope, value, 0)?;
                 if metric.contains(&target) {
                     self.cost.push(value);
                     return Ok(());
                 }
-                Change::Assign { op: *op, target, value }
+                Change::Assign
             }
         };
         let unconditional = matches!(&context.condition, Formula::And(parts) if parts.is_empty());

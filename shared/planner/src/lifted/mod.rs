@@ -10,7 +10,7 @@ mod rules;
 mod symbols;
 
 use lamma_pddl::Name;
-use lamma_pddl::ast::{ArithmeticOp, AssignOp, Comparison, Decimal};
+use lamma_pddl::ast::{ArithmeticOp, Comparison, Decimal};
 
 pub(crate) use resolve::free_variables;
 pub(crate) use rules::lift;
@@ -119,7 +119,9 @@ pub(crate) struct Rule {
 pub(crate) enum Change {
     Add(LiftedAtom),
     Delete(LiftedAtom),
-    Assign { op: AssignOp, target: LiftedAtom, value: Expr },
+    /// A number changes that no condition reads and no metric counts, so the search leaves it out.
+    /// (Reading one is refused while grounding.)
+    Assign,
 }
 
 /// An action schema without its conditions, which are rules.
@@ -146,6 +148,8 @@ pub(crate) struct Lifted {
     pub rules: Vec<Rule>,
     /// The goal as one body over no variables.
     pub goal: Body,
+    /// The text of each of the goal's universally quantified parts.
+    pub goal_foralls: Vec<String>,
     /// Initially true atoms: predicate and objects.
     pub init: Vec<(u32, Vec<u32>)>,
     /// Initial numbers: function and objects.

@@ -258,7 +258,7 @@ pub(crate) fn free_variables(formula: &Formula) -> Vec<u32> {
 }
 
 fn collect_variables(formula: &Formula, used: &mut Vec<u32>, quantified: &mut Vec<u32>) {
-    let mut add = |term: &Term| {
+    let add = |term: &Term| {
         if let Term::Variable(slot) = term {
             used.push(*slot);
         }

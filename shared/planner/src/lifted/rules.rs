@@ -45,12 +45,15 @@ pub(crate) fn lift(domain: &Domain, problem: &Problem) -> Result<Lifted, GroundE
             }
         }
     }
+    let text = |part: &Formula| describe::formula(part, &lifter.symbols, &scope.names);
+    let goal_foralls = goal_body.foralls.iter().map(text).collect();
     let Lifter { symbols, rules, explained } = lifter;
     Ok(Lifted {
         symbols,
         schemas,
         rules,
         goal: goal_body,
+        goal_foralls,
         init,
         values,
         has_costs: !metric.is_empty(),
@@ -75,7 +78,8 @@ impl Lifter {
         let mut scope = Scope::default();
         let params = scope.open(&mut self.symbols, &action.params);
         let precondition = formula(&mut self.symbols, &mut scope, &action.precondition, true, 0)?;
-        let (plain, conditional, cost) = effects::split(self, &mut scope, &action.effect, metric)?;
+        let effects::Parts { plain, conditional, cost } =
+            effects::split(self, &mut scope, &action.effect, metric)?;
         let applied = self.symbols.fresh_predicate(format!("@{}", action.name), params.len(), Role::Applied);
         for body in self.bodies(precondition, &scope, params.clone(), false) {
             self.rules.push(Rule { head: Head::Act { action: index }, body });

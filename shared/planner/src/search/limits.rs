@@ -90,6 +90,11 @@ impl<'a> Meter<'a> {
         Meter { limits, cancel, deadline, expanded: 0, reserved: 0, ticks: 0 }
     }
 
+    /// The limit of memory, if there is one.
+    pub fn memory_limit(&self) -> usize {
+        self.limits.memory_bytes.unwrap_or(usize::MAX)
+    }
+
     /// Says how much memory is held beside the search that runs.
     pub fn reserve(&mut self, bytes: usize) {
         self.reserved = bytes;

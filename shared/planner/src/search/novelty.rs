@@ -40,6 +40,7 @@ pub(super) struct WidthSearch<'a, 't> {
     partitions: HashMap<(u32, u32), u32>,
     tables: Vec<Table>,
     pair_bytes: usize,
+    max_pair_bytes: usize,
     open: OpenList<StateId>,
     /// The variable that each bit of a packed state belongs to.
     variable_of_bit: Vec<u32>,
@@ -95,6 +96,7 @@ impl<'a, 't> WidthSearch<'a, 't> {
             partitions: HashMap::new(),
             tables: Vec::new(),
             pair_bytes: 0,
+            max_pair_bytes: 0,
             open: OpenList::default(),
             variable_of_bit,
             applicable: Vec::new(),
@@ -114,6 +116,7 @@ impl<'a, 't> WidthSearch<'a, 't> {
     pub fn run(&mut self, mut slice: u64, meter: &mut Meter<'_>) -> Slice {
         let mut state = self.task.init.clone();
         let mut next = state.clone();
+        self.max_pair_bytes = MAX_PAIR_BYTES.min(meter.memory_limit() / 4);
         if !std::mem::replace(&mut self.started, true) && self.start() {
             return Ok(Progress::Solved(Vec::new()));
         }
@@ -255,7 +258,7 @@ impl<'a, 't> WidthSearch<'a, 't> {
         if self.width >= 2 {
             if table.pairs.is_empty() {
                 let bytes = facts * facts / 8;
-                if self.pair_bytes + bytes > MAX_PAIR_BYTES {
+                if self.pair_bytes + bytes > self.max_pair_bytes {
                     return novelty;
                 }
                 self.pair_bytes += bytes;

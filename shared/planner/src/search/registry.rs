@@ -32,10 +32,6 @@ impl Registry {
         registry
     }
 
-    pub fn len(&self) -> usize {
-        self.origin.len()
-    }
-
     #[inline]
     pub fn state(&self, id: StateId) -> &[u64] {
         &self.arena[id.0 as usize * self.words..(id.0 as usize + 1) * self.words]

@@ -29,6 +29,9 @@ pub struct Executor<'a> {
 
 type Binding = Vec<(Name, Name)>;
 
+/// Added, deleted, and changed numbers.
+type Changes = (Vec<GroundAtom>, Vec<GroundAtom>, Vec<(AssignOp, GroundAtom, f64)>);
+
 impl Executor<'_> {
     pub fn initial(&self) -> World {
         let mut world = World { facts: BTreeSet::new(), values: BTreeMap::new() };
@@ -172,13 +175,7 @@ impl Executor<'_> {
         }
     }
 
-    fn effects(
-        &self,
-        world: &World,
-        effect: &Effect,
-        binding: &Binding,
-        out: &mut (Vec<GroundAtom>, Vec<GroundAtom>, Vec<(AssignOp, GroundAtom, f64)>),
-    ) {
+    fn effects(&self, world: &World, effect: &Effect, binding: &Binding, out: &mut Changes) {
         match effect {
             Effect::And(parts) => parts.iter().for_each(|p| self.effects(world, p, binding, out)),
             Effect::Forall(vars, inner) => {
@@ -201,8 +198,8 @@ impl Executor<'_> {
 
     /// The state after an action, or why it cannot be applied.
     pub fn apply(&self, world: &World, name: &Name, args: &[Name]) -> Result<World, String> {
-        let actions = self.domain.actions.iter().filter(|a| a.name == *name);
-        let action = actions.last().ok_or_else(|| format!("no action {name}"))?;
+        let mut actions = self.domain.actions.iter().filter(|a| a.name == *name);
+        let action = actions.next().ok_or_else(|| format!("no action {name}"))?;
         if action.params.len() != args.len() {
             return Err(format!("{name} takes {} arguments", action.params.len()));
         }
