@@ -10,16 +10,16 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::{Condition, GroundAtom};
-use lamma_planner::{GroundAct, Plan};
 use lamma_planner::interpreter::{Interpreter, WorldState};
+use lamma_planner::{GroundAct, Plan};
 use lamma_planner::{Limits, Outcome};
 
+use crate::assign::{Work, assign};
 use crate::bound::makespan_lower_bound;
 use crate::combine::world_state;
+use crate::parts::{condition_from, independent_parts};
 use crate::problem::member_problem;
 use crate::reason::why_infeasible;
-use crate::assign::{Work, assign};
-use crate::parts::{condition_from, independent_parts};
 use crate::split::{segments, team_plan};
 use crate::team::Team;
 use crate::understand::Subgoal;
@@ -157,8 +157,7 @@ pub fn allocate(input: &AllocateInput, cancel: &AtomicBool) -> Result<Allocation
     let work: Vec<Work> = allocator.items.iter().map(work).collect();
     let members = assign(&work);
     let packages = packages(&allocator.items, &members);
-    let bound =
-        makespan_lower_bound(&input.team, &input.available, &input.facts, &input.final_goal);
+    let bound = makespan_lower_bound(&input.team, &input.available, &input.facts, &input.final_goal);
     Ok(Allocation { packages, lower_bound: f64::from(bound.unwrap_or(0)) })
 }
 
@@ -312,8 +311,8 @@ impl Allocator<'_> {
         let all = Condition::And(std::iter::once(goal).chain(kept).cloned().collect());
         let plan = self.plan_as_team(index, &all, state, gave_up)?;
         let team = &self.input.team;
-        let segments = segments(team, &self.interpreter, &state.facts, &all, &plan)
-            .map_err(NoAllocation::GaveUp)?;
+        let segments =
+            segments(team, &self.interpreter, &state.facts, &all, &plan).map_err(NoAllocation::GaveUp)?;
         let base = self.items.len();
         for segment in segments {
             let handed: Vec<usize> = segment.after.iter().map(|k| base + k).collect();

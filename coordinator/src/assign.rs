@@ -108,11 +108,8 @@ mod tests {
 
     #[test]
     fn who_is_free_prepares_what_has_to_wait() {
-        let work = [
-            piece(&[], &[(0, 5), (1, 5)]),
-            piece(&[], &[(0, 5), (1, 5)]),
-            piece(&[0, 1], &[(0, 2), (2, 2)]),
-        ];
+        let work =
+            [piece(&[], &[(0, 5), (1, 5)]), piece(&[], &[(0, 5), (1, 5)]), piece(&[0, 1], &[(0, 2), (2, 2)])];
         assert_eq!(assign(&work), [0, 1, 2]);
     }
 

@@ -83,7 +83,8 @@ fn asked_order(
     for later in &merger.packages {
         let spec = &packages[later.package];
         let goal = interpreter.ground_condition(&spec.goal).map_err(|e| e.to_string())?;
-        let atoms: std::collections::BTreeSet<_> = goal.literals().into_iter().map(|l| l.atom.clone()).collect();
+        let atoms: std::collections::BTreeSet<_> =
+            goal.literals().into_iter().map(|l| l.atom.clone()).collect();
         let decisive: Vec<usize> =
             later.steps.clone().filter(|&i| touches(&merger.steps[i], &atoms)).collect();
         for earlier in merger.packages.iter().filter(|p| spec.asked_after.contains(&p.package)) {
@@ -106,10 +107,9 @@ fn team_plan(team: &Team, order: &PartialOrder) -> TeamPlan {
     let mut timeline = Vec::with_capacity(order.steps.len());
     for (i, step) in order.steps.iter().enumerate() {
         let act = act_of(&step.action.act);
-        let gates = gates[i].iter().map(|&(agent, done)| Gate {
-            agent: AgentId(agent as u16),
-            done: StepIndex(done),
-        });
+        let gates = gates[i]
+            .iter()
+            .map(|&(agent, done)| Gate { agent: AgentId(agent as u16), done: StepIndex(done) });
         let index = StepIndex(steps[step.agent].len() as u32);
         timeline.push(TimedStep { start: starts[i], member: step.agent, index, act: act.clone() });
         steps[step.agent].push(Step { act, gates: gates.collect() });
@@ -119,10 +119,7 @@ fn team_plan(team: &Team, order: &PartialOrder) -> TeamPlan {
 }
 
 fn act_of(ground: &lamma_planner::GroundAct) -> Act {
-    Act {
-        action: ground.action.to_string(),
-        args: ground.args.iter().map(ToString::to_string).collect(),
-    }
+    Act { action: ground.action.to_string(), args: ground.args.iter().map(ToString::to_string).collect() }
 }
 
 /// The act as the planner knows it.

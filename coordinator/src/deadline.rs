@@ -24,7 +24,7 @@ impl Coordinator {
             Phase::Planning(_) => after(PLAN_MS),
             Phase::Executing(following) => {
                 Some(following.last_progress.after_ms(STALL_MS + 2 * self.config.step_ms))
-            },
+            }
             Phase::Decomposing(_) | Phase::Allocating(_) | Phase::Combining(..) | Phase::Finished => None,
         }
     }

@@ -11,7 +11,9 @@ use lamma_domains::condition::condition as goal;
 use lamma_domains::goal::{Content, GoalEntry};
 use lamma_domains::view::views;
 use lamma_domains::world::WorldSetup;
-use lamma_lm::{Answer, Clarification, Decomposition, LanguageModel, ObjectView, Request, RobotView, Subtask};
+use lamma_lm::{
+    Answer, Clarification, Decomposition, LanguageModel, ObjectView, Request, RobotView, Subtask,
+};
 use lamma_pddl::ast::GroundAtom;
 
 use crate::understand::{GoalGroup, GoalItem, ScoreGoal, Subgoal, Understanding, Understood};
@@ -147,8 +149,7 @@ pub fn score_goal(world: &WorldSetup, entries: &[GoalEntry]) -> Result<ScoreGoal
 }
 
 fn score_group(group: lamma_domains::condition::GoalGroup) -> GoalGroup {
-    let items =
-        group.facts.into_iter().map(|fact| GoalItem { text: fact.text, condition: fact.condition });
+    let items = group.facts.into_iter().map(|fact| GoalItem { text: fact.text, condition: fact.condition });
     GoalGroup { items: items.collect(), joint: group.joint }
 }
 

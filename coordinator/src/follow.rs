@@ -45,8 +45,7 @@ impl Coordinator {
         let id = PackageId(round.next_id);
         round.next_id += 1;
         round.asked.insert(package, id);
-        let problem =
-            member_problem(&self.config.team, spec.member, &round.merger.state.facts, &spec.goal);
+        let problem = member_problem(&self.config.team, spec.member, &round.merger.state.facts, &spec.goal);
         let list = &mut round.directives[spec.member];
         list.push(Package { id, problem: problem.to_string() });
         let order = Order::Plan(list.clone());
@@ -73,14 +72,15 @@ impl Coordinator {
                 (_, Some(whole)) if self.cut == Cut::Team => whole.clone(),
                 (PlanResult::Found(acts), _) => acts.iter().map(ground_act).collect(),
                 (_, Some(fallback)) => fallback.clone(),
-                (PlanResult::Infeasible(why) | PlanResult::GaveUp(why) | PlanResult::Malformed(why), None) => {
+                (
+                    PlanResult::Infeasible(why) | PlanResult::GaveUp(why) | PlanResult::Malformed(why),
+                    None,
+                ) => {
                     return Err(Stop::Reallocate { package, why });
                 }
             };
-            let goal = self
-                .interpreter
-                .ground_condition(&spec.goal)
-                .map_err(|e| Stop::Broken(e.to_string()))?;
+            let goal =
+                self.interpreter.ground_condition(&spec.goal).map_err(|e| Stop::Broken(e.to_string()))?;
             match round.merger.merge(&self.interpreter, package, spec.member, &acts, &goal) {
                 Ok(()) => {
                     round.merged.insert(package);
@@ -88,7 +88,10 @@ impl Coordinator {
                 Err(conflict) => {
                     round.conflicts += 1;
                     if round.conflicts > MAX_CONFLICTS {
-                        return Err(Stop::Broken(format!("{} cannot follow the others' plans: {}", conflict.act, conflict.reason)));
+                        return Err(Stop::Broken(format!(
+                            "{} cannot follow the others' plans: {}",
+                            conflict.act, conflict.reason
+                        )));
                     }
                 }
             }
@@ -181,7 +184,9 @@ impl Coordinator {
             let agent = AgentId(member as u16);
             let done = self.view.progress(agent);
             while following.told[member] < done {
-                let Some(step) = following.plan.steps[member].get(following.told[member].index()) else { break };
+                let Some(step) = following.plan.steps[member].get(following.told[member].index()) else {
+                    break;
+                };
                 following.told[member] = following.told[member].next();
                 moved = true;
                 let told: u32 = following.told.iter().map(|t| t.0).sum();

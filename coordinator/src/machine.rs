@@ -8,9 +8,7 @@ use std::collections::{BTreeSet, VecDeque};
 use std::sync::Arc;
 
 use lamma_planner::interpreter::Interpreter;
-use lamma_protocol::message::{
-    Directive, Event, Message,
-};
+use lamma_protocol::message::{Directive, Event, Message};
 use lamma_protocol::{AgentId, Epoch, Input, Machine, Output, Revision, Tick, Topic};
 
 use crate::allocate::{Allocation, Cut};
@@ -18,8 +16,8 @@ use crate::combine::TeamPlan;
 use crate::job::{CoordinatorDone, CoordinatorJob};
 use crate::phase::Phase;
 use crate::result::{ActionResult, FaultResult};
-use crate::stopwatch::Stopwatch;
 use crate::roster::Roster;
+use crate::stopwatch::Stopwatch;
 use crate::team::Team;
 use crate::understand::{ScoreGoal, Understanding};
 use crate::world_view::WorldView;
@@ -135,7 +133,11 @@ impl Coordinator {
     }
 
     pub(crate) fn name_of(&self, agent: AgentId) -> String {
-        self.config.team.members.get(agent.index()).map_or_else(|| agent.0.to_string(), |m| m.name.to_string())
+        self.config
+            .team
+            .members
+            .get(agent.index())
+            .map_or_else(|| agent.0.to_string(), |m| m.name.to_string())
     }
 
     /// Takes the phase out to work on it; [`Coordinator::put_phase`] must follow.
@@ -182,8 +184,8 @@ impl Machine for Coordinator {
     }
 
     fn poll_timeout(&self) -> Option<Tick> {
-        let limit = (!matches!(self.phase, Phase::Finished))
-            .then(|| Tick(0).after_ms(self.config.time_limit_ms));
+        let limit =
+            (!matches!(self.phase, Phase::Finished)).then(|| Tick(0).after_ms(self.config.time_limit_ms));
         [Some(self.repeat_at), self.phase_deadline(), limit].into_iter().flatten().min()
     }
 }

@@ -11,12 +11,7 @@ use crate::team::Team;
 
 /// The problem of `member` alone: it is the only one that acts, so its team mates and all facts about
 /// them are left out.
-pub fn member_problem(
-    team: &Team,
-    member: usize,
-    facts: &BTreeSet<GroundAtom>,
-    goal: &Condition,
-) -> Problem {
+pub fn member_problem(team: &Team, member: usize, facts: &BTreeSet<GroundAtom>, goal: &Condition) -> Problem {
     let me = &team.members[member];
     let others = |name: &Name| *name != me.name && team.member(name).is_some();
     Problem {

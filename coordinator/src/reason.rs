@@ -20,9 +20,11 @@ pub(crate) fn why_infeasible(
     limits: &Limits,
     cancel: &AtomicBool,
 ) -> Option<String> {
-    let skills = input.team.missing_skills(&input.available).into_iter().map(|(skill, facts)| {
-        (format!("nobody who is left has the skill {skill}"), facts)
-    });
+    let skills = input
+        .team
+        .missing_skills(&input.available)
+        .into_iter()
+        .map(|(skill, facts)| (format!("nobody who is left has the skill {skill}"), facts));
     let obstacles = input.team.relaxations.iter().map(|r| (r.reason.clone(), r.facts.clone()));
     let mut removed: Vec<(String, Vec<GroundAtom>)> = skills.chain(obstacles).collect();
     let reachable = |removed: &[(String, Vec<GroundAtom>)]| {

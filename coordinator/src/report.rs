@@ -60,17 +60,19 @@ impl Coordinator {
 
     fn metrics(&self, kind: OutcomeKind, goal: &GoalResult) -> Metrics {
         let success = kind == OutcomeKind::Success;
-        let (requested, applied, makespan) = self
-            .view
-            .frame()
-            .map_or((0, 0, 0), |f| (f.requested(), f.applied(), f.makespan()));
+        let (requested, applied, makespan) =
+            self.view.frame().map_or((0, 0, 0), |f| (f.requested(), f.applied(), f.makespan()));
         let makespan = if self.config.solve_only { self.plan_makespan() } else { makespan as f64 };
         let used = if self.config.solve_only { self.history.len() as f64 } else { applied as f64 };
         let reference = self.config.reference.or(self.first_plan);
         let share = |best: f64, used: f64| if used > 0.0 { best / used } else { 1.0 };
         Metrics {
             sr: f64::from(u8::from(success)),
-            gcr: if goal.total == 0 { f64::from(u8::from(success)) } else { goal.reached as f64 / goal.total as f64 },
+            gcr: if goal.total == 0 {
+                f64::from(u8::from(success))
+            } else {
+                goal.reached as f64 / goal.total as f64
+            },
             exe: if requested == 0 { 1.0 } else { applied as f64 / requested as f64 },
             ru: reference.filter(|_| success).map(|(_, steps)| share(steps as f64, used)),
             eff: reference.filter(|_| success).map(|(best, _)| share(best, makespan)),

@@ -9,10 +9,10 @@ use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::Name;
 use lamma_pddl::ast::{Atom, Condition, GroundAtom, Term};
-use lamma_planner::interpreter::Interpreter;
-use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder};
 use lamma_planner::Limits;
 use lamma_planner::Outcome;
+use lamma_planner::interpreter::Interpreter;
+use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder};
 use lamma_planner::{GroundAct, Literal, Plan};
 
 use crate::combine::world_state;

@@ -94,11 +94,10 @@ impl Team {
         self.domain
             .actions
             .iter()
-            .filter(|a| !has(&a.name) && a.params.first().is_some())
+            .filter(|a| !has(&a.name) && !a.params.is_empty())
             .map(|a| {
-                let fact = |&m: &usize| {
-                    GroundAtom::new(skill_predicate(&a.name), [self.members[m].name.clone()])
-                };
+                let fact =
+                    |&m: &usize| GroundAtom::new(skill_predicate(&a.name), [self.members[m].name.clone()]);
                 let own = available.iter().map(fact);
                 let told = self.skill_facts.get(&a.name).into_iter().flatten().cloned();
                 (a.name.clone(), own.chain(told).collect())

@@ -45,7 +45,8 @@ impl Coordinator {
     pub(crate) fn replan(&mut self, why: &str) {
         self.replans += 1;
         if self.replans > MAX_REPLANS {
-            return self.finish(OutcomeKind::GaveUp, Some(format!("{MAX_REPLANS} plans have failed; last: {why}")));
+            return self
+                .finish(OutcomeKind::GaveUp, Some(format!("{MAX_REPLANS} plans have failed; last: {why}")));
         }
         self.recovery(format!("planning anew: {why}"));
         self.begin_epoch();
@@ -68,7 +69,12 @@ impl Coordinator {
         self.finish_with(kind, reason, None);
     }
 
-    pub(crate) fn finish_with(&mut self, kind: OutcomeKind, reason: Option<String>, ask: Option<serde_json::Value>) {
+    pub(crate) fn finish_with(
+        &mut self,
+        kind: OutcomeKind,
+        reason: Option<String>,
+        ask: Option<serde_json::Value>,
+    ) {
         if let Phase::Executing(following) = &self.phase {
             let (plan, allocation) = (following.plan.clone(), following.allocation.clone());
             let done: Vec<StepIndex> = self.progress();
@@ -124,10 +130,9 @@ impl Coordinator {
                 Phase::Granting => self.try_leave_granting(),
                 Phase::Planning(_) => self.try_plan(),
                 Phase::Executing(_) => self.follow(),
-                Phase::Decomposing(_)
-                | Phase::Allocating(_)
-                | Phase::Combining(..)
-                | Phase::Finished => return,
+                Phase::Decomposing(_) | Phase::Allocating(_) | Phase::Combining(..) | Phase::Finished => {
+                    return;
+                }
             }
             if before == std::mem::discriminant(&self.phase) && epoch == self.epoch {
                 return;
@@ -211,7 +216,11 @@ impl Coordinator {
                 for subgoal in &understanding.subgoals {
                     let after: Vec<&str> =
                         subgoal.after.iter().map(|&s| understanding.subgoals[s].id.as_str()).collect();
-                    let after = if after.is_empty() { String::new() } else { format!(" (after {})", after.join(", ")) };
+                    let after = if after.is_empty() {
+                        String::new()
+                    } else {
+                        format!(" (after {})", after.join(", "))
+                    };
                     self.event(EventKind::Note, format!("{}: {}{after}", subgoal.id, subgoal.text));
                 }
                 for assumption in &understanding.assumptions {
@@ -264,18 +273,23 @@ impl Coordinator {
         let Phase::Combining(_, round) = self.take_phase() else { return };
         let plan = match plan {
             Ok(plan) => plan,
-            Err(why) => return self.finish(OutcomeKind::Error, Some(format!("the combined plan fails: {why}"))),
+            Err(why) => {
+                return self.finish(OutcomeKind::Error, Some(format!("the combined plan fails: {why}")));
+            }
         };
         self.first_plan.get_or_insert((plan.makespan, plan.timeline.len()));
         let bound = self.lower_bound.unwrap_or(0.0);
         self.event(
             EventKind::Note,
-            format!("{} steps, makespan {} (no plan is shorter than {bound})", plan.timeline.len(), plan.makespan),
+            format!(
+                "{} steps, makespan {} (no plan is shorter than {bound})",
+                plan.timeline.len(),
+                plan.makespan
+            ),
         );
         self.allocation = Some(round.allocation.clone());
         if self.config.solve_only {
-            let everything: Vec<StepIndex> =
-                plan.steps.iter().map(|s| StepIndex(s.len() as u32)).collect();
+            let everything: Vec<StepIndex> = plan.steps.iter().map(|s| StepIndex(s.len() as u32)).collect();
             self.record(&plan, &everything);
             self.planned_state = Some(round.merger.state.facts);
             return self.finish(OutcomeKind::Success, None);
@@ -326,7 +340,10 @@ impl Coordinator {
         }
         match self.phase {
             Phase::Joining | Phase::Decomposing(_) | Phase::Finished => {}
-            Phase::Granting | Phase::Allocating(_) | Phase::Planning(_) | Phase::Combining(..)
+            Phase::Granting
+            | Phase::Allocating(_)
+            | Phase::Planning(_)
+            | Phase::Combining(..)
             | Phase::Executing(_) => self.replan("the team has changed"),
         }
     }
@@ -345,7 +362,10 @@ impl Coordinator {
             }
             (Phase::Combining(id, _), CoordinatorDone::Combined(plan)) if *id == job => self.combined(plan),
             // The answer to a question that is no longer asked.
-            (_, CoordinatorDone::Understood(_) | CoordinatorDone::Allocated(_) | CoordinatorDone::Combined(_)) => {}
+            (
+                _,
+                CoordinatorDone::Understood(_) | CoordinatorDone::Allocated(_) | CoordinatorDone::Combined(_),
+            ) => {}
         }
     }
 }

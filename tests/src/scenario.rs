@@ -35,11 +35,26 @@ impl Scenario {
             ("right", &["Go", "Pick", "Put"]),
             ("switcher", &["Go", "Darken"]),
         ];
-        let objects = [("apple", "item"), ("pear", "item"), ("table", "place"), ("cupboard", "door-place"), ("wall", "place")];
+        let objects = [
+            ("apple", "item"),
+            ("pear", "item"),
+            ("table", "place"),
+            ("cupboard", "door-place"),
+            ("wall", "place"),
+        ];
         let init = [
-            "(in apple table)", "(in pear table)", "(open table)", "(open floor)",
-            "(at opener wall)", "(at left wall)", "(at right table)", "(at switcher floor)",
-            "(hand-free opener)", "(hand-free left)", "(hand-free right)", "(hand-free switcher)",
+            "(in apple table)",
+            "(in pear table)",
+            "(open table)",
+            "(open floor)",
+            "(at opener wall)",
+            "(at left wall)",
+            "(at right table)",
+            "(at switcher floor)",
+            "(hand-free opener)",
+            "(hand-free left)",
+            "(hand-free right)",
+            "(hand-free switcher)",
         ];
         let subgoals = [
             ("the apple into the cupboard", "(in apple cupboard)", vec![]),
@@ -66,10 +81,9 @@ impl Scenario {
             .map(|(name, _)| TypedName::new(*name, "robot"))
             .chain(objects.iter().map(|(name, kind)| TypedName::new(*name, *kind)))
             .collect();
-        let members = robots.iter().map(|(name, skills)| Member {
-            name: Name::new(name),
-            domain: Arc::new(project(skills)),
-        });
+        let members = robots
+            .iter()
+            .map(|(name, skills)| Member { name: Name::new(name), domain: Arc::new(project(skills)) });
         let all: Vec<&str> = robots.iter().flat_map(|(_, skills)| skills.iter().copied()).collect();
         let team = Arc::new(Team {
             members: members.collect(),
@@ -154,9 +168,12 @@ impl Scenario {
     pub(crate) fn feasible_without(&self, result: &RunResult) -> bool {
         let lost = |name: &str| {
             result.faults.iter().any(|f| {
-                f.text.strip_prefix(name).is_some_and(|rest| rest.starts_with(" has died") || rest.starts_with(" does not answer"))
+                f.text
+                    .strip_prefix(name)
+                    .is_some_and(|rest| rest.starts_with(" has died") || rest.starts_with(" does not answer"))
             })
         };
-        !lost("opener") && !lost("switcher") && !(lost("left") && lost("right"))
+        let carriers_lost = lost("left") && lost("right");
+        !(lost("opener") || lost("switcher") || carriers_lost)
     }
 }

@@ -104,13 +104,7 @@ pub fn run_seed(scenario: &Scenario, seed: u64, plans: &mut PlanCache) -> Run {
 }
 
 /// Runs a scenario under given faults.
-pub fn run_with(
-    scenario: &Scenario,
-    seed: u64,
-    rng: Rng,
-    faults: FaultPlan,
-    plans: &mut PlanCache,
-) -> Run {
+pub fn run_with(scenario: &Scenario, seed: u64, rng: Rng, faults: FaultPlan, plans: &mut PlanCache) -> Run {
     let robots = (0..scenario.team.members.len()).map(|r| Some(scenario.robot(r))).collect();
     let mut bed = Testbed {
         rng,
@@ -167,14 +161,20 @@ impl Testbed<'_> {
                 return self.truthful(scenario, result);
             }
         }
-        Err(format!("TERMINATES: still {} after {} virtual seconds", self.coordinator.phase(), HORIZON_US / 1_000_000))
+        Err(format!(
+            "TERMINATES: still {} after {} virtual seconds",
+            self.coordinator.phase(),
+            HORIZON_US / 1_000_000
+        ))
     }
 
     /// Success means the goal holds in the arbiter's state; infeasible is not said of a whole team that can.
     fn truthful(&self, scenario: &Scenario, result: RunResult) -> Result<RunResult, String> {
         let holds = scenario.goal_holds(self.arbiter.state());
         match result.outcome {
-            OutcomeKind::Success if !holds => Err("TRUTHFUL: success is claimed and the goal does not hold".into()),
+            OutcomeKind::Success if !holds => {
+                Err("TRUTHFUL: success is claimed and the goal does not hold".into())
+            }
             OutcomeKind::Error => Err(format!("NO-ERROR: {:?}", result.reason)),
             OutcomeKind::Infeasible if scenario.feasible_without(&result) => {
                 Err(format!("TRUTHFUL: infeasible is claimed: {:?}", result.reason))
@@ -193,9 +193,7 @@ impl Testbed<'_> {
         self.faults
             .pauses
             .iter()
-            .find(|(robot, from, until)| {
-                *robot == agent.index() && (*from..*until).contains(&self.now.0)
-            })
+            .find(|(robot, from, until)| *robot == agent.index() && (*from..*until).contains(&self.now.0))
             .map(|(_, _, until)| Tick(*until))
     }
 

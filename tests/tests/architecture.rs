@@ -1,6 +1,8 @@
 //! Holds the code to the walls that ARCHITECTURE.md draws: who may depend on whom, and what may be named
 //! where. An invariant that says what is absent needs a test, or it is a wish.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on says so by panicking")]
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -20,7 +22,8 @@ const ALLOWED: &[(&str, &[&str])] = &[
 ];
 
 /// Crates whose code must behave the same in every process: no clock, thread, hash order or I/O.
-const MACHINES: &[&str] = &["agents/robot/src", "agents/simulator/src", "coordinator/src", "shared/protocol/src"];
+const MACHINES: &[&str] =
+    &["agents/robot/src", "agents/simulator/src", "coordinator/src", "shared/protocol/src"];
 
 /// The only names at the top.
 const TOP: &[&str] = &["agents", "coordinator", "shared", "domains", "tests", "deploy"];
@@ -80,7 +83,10 @@ fn crates_depend_only_in_the_direction_of_the_house() {
             let on = dependency["name"].as_str().unwrap();
             let for_tests = dependency["kind"].as_str() == Some("dev");
             if on.starts_with("lamma-") && !for_tests {
-                assert!(allowed.contains(&on), "{name} must not depend on {on}: see ARCHITECTURE.md, \"Direction\"");
+                assert!(
+                    allowed.contains(&on),
+                    "{name} must not depend on {on}: see ARCHITECTURE.md, \"Direction\""
+                );
             }
         }
     }
@@ -98,8 +104,18 @@ fn only_the_codec_names_the_encoding_library() {
 #[test]
 fn machines_name_no_clock_thread_hash_order_or_transport() {
     let banned = [
-        "std::time::Instant", "SystemTime", "std::thread", "HashMap", "HashSet", "std::net", "std::fs",
-        "tokio", "iceoryx2", "zenoh", "fastrand", "println!",
+        "std::time::Instant",
+        "SystemTime",
+        "std::thread",
+        "HashMap",
+        "HashSet",
+        "std::net",
+        "std::fs",
+        "tokio",
+        "iceoryx2",
+        "zenoh",
+        "fastrand",
+        "println!",
     ];
     for (file, text) in MACHINES.iter().flat_map(|below| sources(below)) {
         let code = code(&text);
@@ -115,8 +131,12 @@ fn transports_and_threads_are_named_only_where_they_belong() {
         let code = code(&text);
         let may = file.starts_with("shared/bus") || file.starts_with("deploy") || file.starts_with("tests/");
         assert!(may || !code.contains("iceoryx2::"), "{file} names iceoryx2: only the bus does");
-        let may = may || file.contains("/tests/") || file.contains("/examples/") || file.contains("/benches/");
-        assert!(may || !code.contains("std::thread::spawn"), "{file} starts a thread: only the bus and the mains do");
+        let may =
+            may || file.contains("/tests/") || file.contains("/examples/") || file.contains("/benches/");
+        assert!(
+            may || !code.contains("std::thread::spawn"),
+            "{file} starts a thread: only the bus and the mains do"
+        );
         let may = may || file.starts_with("coordinator/lm/src/http");
         assert!(may || !code.contains("std::net::"), "{file} opens sockets: only the bus and lm/http do");
     }
@@ -126,7 +146,9 @@ fn transports_and_threads_are_named_only_where_they_belong() {
 fn unsafe_code_is_only_in_the_bus() {
     for (file, text) in TOP.iter().flat_map(|top| sources(top)) {
         let own = file.starts_with("shared/bus/src") || file == "tests/tests/architecture.rs";
-        let has = code(&text).lines().any(|l| l.contains("unsafe {") || l.contains("unsafe fn") || l.contains("allow(unsafe_code)"));
+        let has = code(&text)
+            .lines()
+            .any(|l| l.contains("unsafe {") || l.contains("unsafe fn") || l.contains("allow(unsafe_code)"));
         assert!(own || !has, "{file} has unsafe code: it belongs into the bus, behind a safe function");
     }
 }

@@ -1,10 +1,10 @@
 //! The first test of the protocol: the real machines under seeded faults.
 
+use lamma_coordinator::result::OutcomeKind;
 use lamma_tests::faults::FaultPlan;
 use lamma_tests::rng::Rng;
 use lamma_tests::scenario::Scenario;
 use lamma_tests::testbed::{PlanCache, run_seed, run_with};
-use lamma_coordinator::result::OutcomeKind;
 
 #[test]
 fn without_faults_the_team_reaches_its_goal_in_the_shortest_time() {

@@ -115,16 +115,15 @@ impl Robot {
         }
         let Phase::Planning { jobs } = &mut self.phase else { return };
         for package in packages {
-            let known = self.plans.iter().any(|p| p.id == package.id)
-                || jobs.values().any(|id| *id == package.id);
+            let known =
+                self.plans.iter().any(|p| p.id == package.id) || jobs.values().any(|id| *id == package.id);
             if known {
                 continue;
             }
             let job = JobId(self.next_job);
             self.next_job += 1;
             jobs.insert(job, package.id);
-            let work =
-                RobotJob { package, domain: domain.clone(), expansions: self.config.expansions };
+            let work = RobotJob { package, domain: domain.clone(), expansions: self.config.expansions };
             self.outputs.push_back(Output::Spawn(job, work));
         }
     }
@@ -137,11 +136,11 @@ impl Robot {
     }
 
     fn planned(&mut self, job: JobId, done: RobotDone) {
-        if let Phase::Planning { jobs } = &mut self.phase {
-            if jobs.remove(&job).is_some() {
-                self.plans.push(done);
-                self.report();
-            }
+        if let Phase::Planning { jobs } = &mut self.phase
+            && jobs.remove(&job).is_some()
+        {
+            self.plans.push(done);
+            self.report();
         }
     }
 
@@ -151,7 +150,8 @@ impl Robot {
         let request = execution.look(frame);
         let changed = execution.done() != before;
         if let Some(request) = request {
-            self.outputs.push_back(Output::Publish(Topic::Request(self.config.id), Message::Request(request)));
+            self.outputs
+                .push_back(Output::Publish(Topic::Request(self.config.id), Message::Request(request)));
         }
         if changed && self.finished() {
             self.report();
@@ -181,11 +181,11 @@ impl Robot {
     fn repeat(&mut self, now: Tick) {
         self.repeat_at = now.after_ms(REPEAT_MS);
         self.report();
-        if let Phase::Executing(execution) = &self.phase {
-            if let Some(request) = execution.pending() {
-                self.outputs
-                    .push_back(Output::Publish(Topic::Request(self.config.id), Message::Request(request)));
-            }
+        if let Phase::Executing(execution) = &self.phase
+            && let Some(request) = execution.pending()
+        {
+            let topic = Topic::Request(self.config.id);
+            self.outputs.push_back(Output::Publish(topic, Message::Request(request)));
         }
     }
 }
@@ -206,10 +206,11 @@ impl Machine for Robot {
                         return;
                     }
                     self.answered = Some(envelope.revision);
-                    if let Phase::Executing(execution) = &mut self.phase {
-                        if execution.answer(&ack) && (execution.refused().is_some() || execution.finished()) {
-                            self.report();
-                        }
+                    if let Phase::Executing(execution) = &mut self.phase
+                        && execution.answer(&ack)
+                        && (execution.refused().is_some() || execution.finished())
+                    {
+                        self.report();
                     }
                 }
                 Message::Command(command) if command.stop => self.leave(),

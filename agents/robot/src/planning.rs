@@ -5,8 +5,8 @@ use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::Domain;
 use lamma_pddl::{Source, check_problem, parse_problem};
-use lamma_planner::{Limits, Outcome};
 use lamma_planner::validate::validate;
+use lamma_planner::{Limits, Outcome};
 use lamma_protocol::message::{Act, Package, PackageReport, PlanResult};
 
 /// Work that the robot hands out: plan one package.
@@ -56,8 +56,5 @@ impl RobotJob {
 }
 
 fn act(ground: &lamma_planner::GroundAct) -> Act {
-    Act {
-        action: ground.action.to_string(),
-        args: ground.args.iter().map(ToString::to_string).collect(),
-    }
+    Act { action: ground.action.to_string(), args: ground.args.iter().map(ToString::to_string).collect() }
 }

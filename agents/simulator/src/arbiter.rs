@@ -10,12 +10,8 @@ use lamma_pddl::ast::{Domain, Init, TypedName};
 use lamma_planner::GroundAct;
 use lamma_planner::interpreter::{Interpreter, WorldState};
 use lamma_protocol::frame::write_frame;
-use lamma_protocol::message::{
-    Ack, Act, Grant, Message, Refusal, RefusalKind, Request, Verdict, Vocabulary,
-};
-use lamma_protocol::{
-    AgentId, Epoch, FrameHeader, Input, Machine, Output, Revision, StepIndex, Tick, Topic,
-};
+use lamma_protocol::message::{Ack, Act, Grant, Message, Refusal, RefusalKind, Request, Verdict, Vocabulary};
+use lamma_protocol::{AgentId, Epoch, FrameHeader, Input, Machine, Output, Revision, StepIndex, Tick, Topic};
 use thiserror::Error;
 
 use crate::clock::LogicalClock;
@@ -84,8 +80,8 @@ pub struct Arbiter {
 impl Arbiter {
     /// Sets the world up and makes its first frame ready.
     pub fn new(config: WorldConfig) -> Result<Self, ArbiterError> {
-        let interpreter = Interpreter::new(&config.domain, &config.objects)
-            .map_err(|e| ArbiterError(e.to_string()))?;
+        let interpreter =
+            Interpreter::new(&config.domain, &config.objects).map_err(|e| ArbiterError(e.to_string()))?;
         let state = interpreter.initial(&config.init).map_err(|e| ArbiterError(e.to_string()))?;
         let agents = config.agents.len();
         let mut arbiter = Arbiter {
@@ -134,8 +130,7 @@ impl Arbiter {
             return;
         }
         self.granted = Some(revision);
-        let newly_lost: Vec<AgentId> =
-            grant.lost.iter().copied().filter(|a| self.lost.insert(*a)).collect();
+        let newly_lost: Vec<AgentId> = grant.lost.iter().copied().filter(|a| self.lost.insert(*a)).collect();
         for agent in newly_lost {
             self.let_go(agent);
         }
@@ -204,9 +199,7 @@ impl Arbiter {
     fn settle(&mut self, agent: AgentId, request: &Request) {
         let verdict = match self.judge(agent, request) {
             Judgement::Repeat => self.acks[agent.index()].clone(),
-            Judgement::Answer(verdict) => {
-                Some(Ack { epoch: request.epoch, step: request.step, verdict })
-            }
+            Judgement::Answer(verdict) => Some(Ack { epoch: request.epoch, step: request.step, verdict }),
         };
         if let Some(ack) = verdict {
             self.acks[agent.index()] = Some(ack.clone());
@@ -277,10 +270,8 @@ impl Arbiter {
         if ground.args.first() != Some(&spec.name) {
             return Err((RefusalKind::NotAllowed, format!("{} cannot act for somebody else", spec.name)));
         }
-        let action = self
-            .interpreter
-            .instantiate(&ground)
-            .map_err(|e| (RefusalKind::Precondition, e.to_string()))?;
+        let action =
+            self.interpreter.instantiate(&ground).map_err(|e| (RefusalKind::Precondition, e.to_string()))?;
         let duration = self
             .interpreter
             .duration(&self.state, &action)
@@ -302,8 +293,7 @@ impl Arbiter {
 
     fn say_vocabulary(&mut self) {
         let facts = self.facts.facts().to_vec();
-        self.outputs
-            .push_back(Output::Publish(Topic::Vocabulary, Message::Vocabulary(Vocabulary { facts })));
+        self.outputs.push_back(Output::Publish(Topic::Vocabulary, Message::Vocabulary(Vocabulary { facts })));
     }
 
     fn say_frame(&mut self) {

@@ -138,9 +138,9 @@ impl Supervisor {
                 self.command.lost.push(agent);
                 Ok(())
             }
-            Node::Coordinator | Node::Simulator | Node::Supervisor => {
-                Err(Failure::fault(format!("the {node} has ended unexpectedly ({how}); see its log in the run's folder")))
-            }
+            Node::Coordinator | Node::Simulator | Node::Supervisor => Err(Failure::fault(format!(
+                "the {node} has ended unexpectedly ({how}); see its log in the run's folder"
+            ))),
         }
     }
 
@@ -178,7 +178,9 @@ impl Supervisor {
         let Some(json) = self.outcome.as_ref().and_then(|(_, outcome)| outcome.result.as_ref()) else {
             return Ok(None);
         };
-        serde_json::from_str(json).map(Some).map_err(|e| Failure::fault(format!("the coordinator's result: {e}")))
+        serde_json::from_str(json)
+            .map(Some)
+            .map_err(|e| Failure::fault(format!("the coordinator's result: {e}")))
     }
 }
 

@@ -14,7 +14,7 @@ use crate::error::Failure;
 use crate::host::{Death, Host};
 use crate::launch::{ProcessRecord, agents};
 use crate::spec::RunSpec;
-use crate::supervise::{Event, Patience, Spec, Supervisor};
+use crate::supervise::{Event, Patience, Spec, Supervisor, log_file};
 
 /// The processes of a run and the shared memory they meet in.
 pub struct ProcessHost {
@@ -69,7 +69,7 @@ impl ProcessHost {
         if let Node::Robot(agent) = node {
             args.extend(["--agent".into(), agent.0.to_string().into()]);
         }
-        let log = folder.join("logs").join(format!("{name}.log"));
+        let log = log_file(folder, name);
         let spec = Spec { name: name.into(), args, log, ..Spec::default() };
         let pid = self.supervisor.spawn(spec).map_err(Failure::fault)?;
         self.nodes.insert(name.into(), node);
@@ -83,6 +83,7 @@ impl ProcessHost {
                 Event::Ended { name, how, .. } => {
                     if let Some(&node) = self.nodes.get(&name) {
                         self.deaths.push(Death { node, how: how.to_string() });
+                        self.run.bury_the_dead();
                     }
                 }
                 Event::Interrupted { .. } => self.interrupted = true,

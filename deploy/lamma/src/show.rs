@@ -36,7 +36,11 @@ fn outcome(out: &mut String, result: &RunResult) -> std::fmt::Result {
         OutcomeKind::Error => "error",
     };
     let style = if result.outcome == OutcomeKind::Success { GOOD } else { BAD };
-    writeln!(out, "\n{style}{word}{style:#}{}", result.reason.as_ref().map(|r| format!(": {r}")).unwrap_or_default())
+    writeln!(
+        out,
+        "\n{style}{word}{style:#}{}",
+        result.reason.as_ref().map(|r| format!(": {r}")).unwrap_or_default()
+    )
 }
 
 fn clarification(out: &mut String, ask: &serde_json::Value) -> std::fmt::Result {
@@ -90,7 +94,11 @@ fn numbers(out: &mut String, result: &RunResult) -> std::fmt::Result {
     writeln!(
         out,
         "{HEAD}metrics{HEAD:#}  SR {:.2}  GCR {:.2}  Exe {:.2}  RU {}  Eff {}",
-        m.sr, m.gcr, m.exe, optional(m.ru), optional(m.eff)
+        m.sr,
+        m.gcr,
+        m.exe,
+        optional(m.ru),
+        optional(m.eff)
     )?;
     let t = &result.time_ms;
     writeln!(

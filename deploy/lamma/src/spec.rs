@@ -76,7 +76,8 @@ impl RunSpec {
     /// The world of the run; the same for the same spec, in every process.
     pub fn world(&self) -> Result<WorldSetup, Failure> {
         let rules = Rules { knife_free: self.knife_free };
-        setup_with(&self.scene, &self.team, self.objects.as_deref(), self.seed, rules).map_err(Failure::bad_input)
+        setup_with(&self.scene, &self.team, self.objects.as_deref(), self.seed, rules)
+            .map_err(Failure::bad_input)
     }
 
     /// The instruction, if the task is one.
@@ -95,9 +96,8 @@ impl RunSpec {
     pub fn write(&self, folder: &Path, world: &WorldSetup) -> Result<(), Failure> {
         let robots = folder.join("robots");
         fs::create_dir_all(&robots).map_err(|e| Failure::io("create", &robots, &e))?;
-        let write = |path: PathBuf, text: String| {
-            fs::write(&path, text).map_err(|e| Failure::io("write", &path, &e))
-        };
+        let write =
+            |path: PathBuf, text: String| fs::write(&path, text).map_err(|e| Failure::io("write", &path, &e));
         let json = serde_json::to_string_pretty(self).map_err(|e| Failure::fault(e.to_string()))?;
         write(folder.join("run.json"), json)?;
         for member in &world.members {

@@ -53,7 +53,10 @@ fn own(file: &Path) -> Result<Suite, Failure> {
         Failure::bad_input(lines.join("\n"))
     })?;
     if tasks.is_empty() {
-        return Err(Failure::bad_input(format!("{} has no task: one JSON object a line is expected", file.display())));
+        return Err(Failure::bad_input(format!(
+            "{} has no task: one JSON object a line is expected",
+            file.display()
+        )));
     }
     let entry = |task| Entry { task, repairs: Vec::new(), impossible: None, set_aside: None };
     Ok(Suite {
@@ -77,12 +80,8 @@ fn mat_thor(folder: &Path, robots: Option<&Path>) -> Result<Suite, Failure> {
     if files.is_empty() {
         return Err(Failure::bad_input(format!("{} has no .json file", folder.display())));
     }
-    let mut suite = Suite {
-        name: folder.display().to_string(),
-        entries: Vec::new(),
-        notes: Vec::new(),
-        imported: true,
-    };
+    let mut suite =
+        Suite { name: folder.display().to_string(), entries: Vec::new(), notes: Vec::new(), imported: true };
     for file in files {
         let name = file.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         let found = import(&name, &read_text(&file)?, "mat-thor", &robots);

@@ -105,7 +105,13 @@ pub fn text(name: &str, rows: &[Row]) -> String {
         let _ = writeln!(
             out,
             "{:width$}  {:3}  {:.2}  {}  {:.2}  {}  {:.2}",
-            r.name, r.n, r.sr, optional(r.ru), r.gcr, optional(r.eff), r.exe
+            r.name,
+            r.n,
+            r.sr,
+            optional(r.ru),
+            r.gcr,
+            optional(r.eff),
+            r.exe
         );
     }
     out

@@ -210,9 +210,8 @@ impl Explainer<'_> {
     /// Numbers and derived predicates: the linear order stays.
     fn order_untracked(&mut self, interpreter: &Interpreter) {
         let all = interpreter.has_axioms();
-        let untracked: Vec<usize> = (0..self.steps.len())
-            .filter(|&i| all || touches_numbers(&self.steps[i].action))
-            .collect();
+        let untracked: Vec<usize> =
+            (0..self.steps.len()).filter(|&i| all || touches_numbers(&self.steps[i].action)).collect();
         for pair in untracked.windows(2) {
             self.before[pair[1]].insert(pair[0]);
         }
@@ -300,10 +299,7 @@ impl PartialOrder {
     pub fn earliest_starts(&self) -> Vec<f64> {
         let mut starts: Vec<f64> = Vec::with_capacity(self.steps.len());
         for before in &self.before {
-            let start = before
-                .iter()
-                .map(|&p| starts[p] + self.durations[p])
-                .fold(0.0, f64::max);
+            let start = before.iter().map(|&p| starts[p] + self.durations[p]).fold(0.0, f64::max);
             starts.push(start);
         }
         starts

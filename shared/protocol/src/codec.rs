@@ -24,7 +24,9 @@ pub enum CodecError {
     #[error("foreign bytes: no `LAMM` header in {0} bytes")]
     Foreign(usize),
     /// The other end speaks another version.
-    #[error("the sender speaks wire version {found}, this program {WIRE_VERSION}: use the same build on all ends")]
+    #[error(
+        "the sender speaks wire version {found}, this program {WIRE_VERSION}: use the same build on all ends"
+    )]
     Version {
         /// Theirs.
         found: u16,

@@ -17,9 +17,7 @@ impl AgentId {
 
 /// One (re)plan of the team. The arbiter is its authority: what belongs to another epoch is refused, so a
 /// robot that was paused and wakes late can do no harm (a fencing token, Kleppmann 2016).
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Epoch(pub u64);
 
 impl Epoch {
@@ -30,9 +28,7 @@ impl Epoch {
 }
 
 /// The position of a step in one agent's plan of one epoch, from 0. As a count: how many steps are done.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct StepIndex(pub u32);
 
 impl StepIndex {
@@ -49,9 +45,7 @@ impl StepIndex {
 
 /// Orders what one sender said: a restarted process has a higher incarnation, and within one each new
 /// statement a higher number. A receiver keeps the greatest and drops the rest.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Revision {
     /// Which start of the process.
     pub incarnation: u32,
@@ -68,9 +62,7 @@ impl Revision {
 
 /// Microseconds since the run began. (`std::time::Instant` cannot be serialised, so a log of it could not
 /// be replayed.)
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Tick(pub u64);
 
 impl Tick {

@@ -112,7 +112,8 @@ fn run_one(args: &BenchArgs, folder: &Path, index: usize, entry: &Entry) -> Fini
     let (result, mut json) = match try_one(args, &folder, entry) {
         Ok((result, json)) => (result, json),
         Err(failure) => {
-            let kind = if failure.code == exit::BAD_INPUT { OutcomeKind::Infeasible } else { OutcomeKind::Error };
+            let kind =
+                if failure.code == exit::BAD_INPUT { OutcomeKind::Infeasible } else { OutcomeKind::Error };
             let result = RunResult::unfinished(kind, failure.text);
             let json = serde_json::to_value(&result).unwrap_or_default();
             (result, json)
@@ -178,7 +179,10 @@ fn report(args: &BenchArgs, suite: &Suite, finished: &[Finished], seconds: f64) 
         Format::Text => {
             print!("{}", table::text(&suite.name, &rows));
             let n = finished.len();
-            println!("{n} tasks in {seconds:.1} s; seed {}; goals judged on the simulator's state", args.common.seed);
+            println!(
+                "{n} tasks in {seconds:.1} s; seed {}; goals judged on the simulator's state",
+                args.common.seed
+            );
         }
     }
     Ok(())

@@ -8,7 +8,11 @@ pub fn clean() -> Result<u8, Failure> {
     let removed = lamma_bus::iceoryx::sweep_stale().map_err(Failure::fault)?;
     match removed.len() {
         0 => println!("nothing to clean"),
-        n => println!("removed what {n} crashed run{} left: {}", if n == 1 { "" } else { "s" }, removed.join(", ")),
+        n => println!(
+            "removed what {n} crashed run{} left: {}",
+            if n == 1 { "" } else { "s" },
+            removed.join(", ")
+        ),
     }
     Ok(exit::SUCCESS)
 }

@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use lamma_pddl::ast::{Domain, Problem};
 use lamma_pddl::{Report, check_domain, check_problem, parse_domain, parse_problem};
-use lamma_planner::{Limits, Outcome, write_plan};
 use lamma_planner::validate::CostKind;
+use lamma_planner::{Limits, Outcome, write_plan};
 
 use crate::cli::PlanArgs;
 use crate::commands::read_source;
@@ -72,9 +72,8 @@ pub fn plan(args: &PlanArgs) -> Result<u8, Failure> {
             let text = write_plan(&plan, cost_kind(&task.problem));
             print!("{text}");
             if let Some(path) = &args.plan_file {
-                std::fs::write(path, &text).map_err(|e| {
-                    Failure::bad_input(format!("cannot write {}: {e}", path.display()))
-                })?;
+                std::fs::write(path, &text)
+                    .map_err(|e| Failure::bad_input(format!("cannot write {}: {e}", path.display())))?;
             }
             Ok(exit::SUCCESS)
         }

@@ -19,10 +19,10 @@ use crate::watch::{Lines, Watcher};
 
 /// Runs the instruction (or, for `solve_only`, stops at the plan) and prints the outcome.
 pub fn run(args: &RunArgs, solve_only: bool) -> Result<u8, Failure> {
-    let mut spec = spec_from(&args.common, Task::Instruction {
-        text: instruction(&args.instruction)?,
-        assume: args.common.assume,
-    });
+    let mut spec = spec_from(
+        &args.common,
+        Task::Instruction { text: instruction(&args.instruction)?, assume: args.common.assume },
+    );
     spec.scene = args.scene.clone();
     let members: Vec<Member> = args.team.iter().map(|name| Member::Named(name.trim().to_string())).collect();
     spec.team = team(&members).map_err(Failure::bad_input)?;

@@ -11,8 +11,7 @@ pub fn validate(args: &ValidateArgs) -> Result<u8, Failure> {
     let task = read_task(&args.domain, &args.problem)?;
     let source = read_source(&args.plan)?;
     let acts = lamma_planner::read_plan(&source).map_err(Failure::bad_input)?;
-    let verdict = lamma_planner::validate(&task.domain, &task.problem, &acts)
-        .map_err(Failure::bad_input)?;
+    let verdict = lamma_planner::validate(&task.domain, &task.problem, &acts).map_err(Failure::bad_input)?;
     println!("{verdict}");
     Ok(if verdict.is_valid() { exit::SUCCESS } else { exit::NOT_REACHED })
 }

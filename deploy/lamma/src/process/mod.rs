@@ -7,8 +7,8 @@ pub mod child;
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use lamma_bus::driver::Worker;
@@ -43,7 +43,11 @@ pub fn robot_parts(
     agent: AgentId,
 ) -> Result<Parts<Robot, RobotJob, RobotDone>, Failure> {
     let member = spec.team.get(agent.index()).ok_or_else(|| {
-        Failure::bad_input(format!("the team of this run has {} robots, not {}", spec.team.len(), agent.0 + 1))
+        Failure::bad_input(format!(
+            "the team of this run has {} robots, not {}",
+            spec.team.len(),
+            agent.0 + 1
+        ))
     })?;
     let machine = Robot::new(RobotConfig {
         id: agent,
@@ -138,10 +142,8 @@ pub fn language_model(spec: &RunSpec) -> Result<Box<dyn LanguageModel>, Failure>
 pub fn team(world: &WorldSetup) -> Team {
     let mut domain = world.domain.clone();
     domain.actions.retain(|a| Some(&a.name) != world.on_lost.as_ref());
-    let members = world
-        .members
-        .iter()
-        .map(|m| Member { name: Name::new(&m.name), domain: Arc::new(m.domain.clone()) });
+    let members =
+        world.members.iter().map(|m| Member { name: Name::new(&m.name), domain: Arc::new(m.domain.clone()) });
     Team {
         members: members.collect(),
         domain: Arc::new(domain),
@@ -171,7 +173,10 @@ fn too_heavy(world: &WorldSetup) -> Vec<Relaxation> {
         .iter()
         .filter(|t| t.can("pickupable") && t.mass_kg > strongest)
         .map(|t| Relaxation {
-            reason: format!("{} weighs {} kg and the strongest of the team lifts {strongest} kg", t.name, t.mass_kg),
+            reason: format!(
+                "{} weighs {} kg and the strongest of the team lifts {strongest} kg",
+                t.name, t.mass_kg
+            ),
             facts: world
                 .members
                 .iter()

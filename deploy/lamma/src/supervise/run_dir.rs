@@ -69,11 +69,11 @@ impl RunDir {
     pub fn path(&self) -> &Path {
         &self.path
     }
+}
 
-    /// Where the process called `name` writes what it has to say.
-    pub fn log(&self, name: &str) -> PathBuf {
-        self.path.join("logs").join(format!("{name}.log"))
-    }
+/// Where the process called `name` of the run in `folder` writes what it has to say.
+pub fn log_file(folder: &Path, name: &str) -> PathBuf {
+    folder.join("logs").join(format!("{name}.log"))
 }
 
 fn error(path: &Path, reason: &dyn std::fmt::Display) -> RunDirError {
@@ -122,7 +122,7 @@ mod tests {
     fn a_given_folder_is_used_and_an_impossible_one_is_named() {
         let path = std::env::temp_dir().join(format!("lamma-test-{}", fresh_id()));
         let run = RunDir::create(Some(&path)).unwrap();
-        assert!(run.log("robot-0").parent().unwrap().is_dir());
+        assert!(log_file(run.path(), "robot-0").parent().unwrap().is_dir());
         let beneath_a_file = path.join("file");
         std::fs::write(&beneath_a_file, "").unwrap();
         let error = RunDir::create(Some(&beneath_a_file)).unwrap_err().to_string();

@@ -107,7 +107,7 @@ fn spec(role: &str, name: &str, run: &RunDir) -> Spec {
         program: None,
         args: args.map(OsString::from).into(),
         env: vec![(ROLE.into(), role.into()), (FOLDER.into(), run.path().into())],
-        log: run.log(name),
+        log: log_file(run.path(), name),
     }
 }
 
@@ -226,7 +226,7 @@ fn what_a_child_says_is_in_its_log() {
         supervisor.spawn(sh.clone()).unwrap();
         events.recv_timeout(HANG).unwrap();
     }
-    assert_eq!(std::fs::read_to_string(folder.0.log("sh")).unwrap(), "out\nerr\nout\nerr\n");
+    assert_eq!(std::fs::read_to_string(log_file(folder.0.path(), "sh")).unwrap(), "out\nerr\nout\nerr\n");
 }
 
 #[test]

@@ -31,13 +31,43 @@ fn wrong_input_is_told_with_place_and_cure() {
     let wrong_plan = folder.file("wrong.txt", "; nothing\n");
     let apple = "Put the apple in the fridge";
     let cases = [
-        case("unknown scene", &["run", README, "--scene", "FlorPlan6", "--team", "robot1"], 20, &["FlorPlan6", "FloorPlan6"]),
-        case("unknown robot", &["run", README, "--scene", "FloorPlan6", "--team", "robot1,robo2"], 20, &["robo2", "robot2"]),
-        case("empty instruction", &["run", "  ", "--scene", "FloorPlan6", "--team", "robot1"], 20, &["instruction is empty"]),
+        case(
+            "unknown scene",
+            &["run", README, "--scene", "FlorPlan6", "--team", "robot1"],
+            20,
+            &["FlorPlan6", "FloorPlan6"],
+        ),
+        case(
+            "unknown robot",
+            &["run", README, "--scene", "FloorPlan6", "--team", "robot1,robo2"],
+            20,
+            &["robo2", "robot2"],
+        ),
+        case(
+            "empty instruction",
+            &["run", "  ", "--scene", "FloorPlan6", "--team", "robot1"],
+            20,
+            &["instruction is empty"],
+        ),
         case("no team", &["run", README, "--scene", "FloorPlan6"], 20, &["--team"]),
-        case("unknown flag", &["run", README, "--secne", "FloorPlan6", "--team", "robot1"], 20, &["--secne", "--scene"]),
-        case("unknown model", &["run", README, "--scene", "FloorPlan6", "--team", "robot1", "--lm", "gpt"], 20, &["gpt", "offline"]),
-        case("zenoh is not there yet", &["run", README, "--scene", "FloorPlan6", "--team", "robot1", "--bus", "zenoh"], 20, &["zenoh", "iceoryx2"]),
+        case(
+            "unknown flag",
+            &["run", README, "--secne", "FloorPlan6", "--team", "robot1"],
+            20,
+            &["--secne", "--scene"],
+        ),
+        case(
+            "unknown model",
+            &["run", README, "--scene", "FloorPlan6", "--team", "robot1", "--lm", "gpt"],
+            20,
+            &["gpt", "offline"],
+        ),
+        case(
+            "zenoh is not there yet",
+            &["run", README, "--scene", "FloorPlan6", "--team", "robot1", "--bus", "zenoh"],
+            20,
+            &["zenoh", "iceoryx2"],
+        ),
         case("unknown command", &["rnu"], 20, &["rnu"]),
         case("missing domain file", &["plan", "nowhere.pddl", &problem], 20, &["nowhere.pddl"]),
         case("a folder for a file", &["plan", ".", &problem], 20, &["cannot read"]),
@@ -47,20 +77,46 @@ fn wrong_input_is_told_with_place_and_cure() {
         case("unsolvable", &["plan", &domain, &unsolvable], 10, &["unsolvable"]),
         case("valid plan", &["validate", &domain, &problem, &plan], 0, &["valid"]),
         case("wrong plan", &["validate", &domain, &problem, &wrong_plan], 1, &["(q)"]),
-        case("misspelt key of a task", &["bench", "--tasks", &tasks], 20, &["tasks.jsonl", "line 1", "secne", "scene"]),
+        case(
+            "misspelt key of a task",
+            &["bench", "--tasks", &tasks],
+            20,
+            &["tasks.jsonl", "line 1", "secne", "scene"],
+        ),
         case("no task", &["bench", "--tasks", &empty], 20, &["empty.jsonl"]),
         case("no suite", &["bench"], 20, &["--tasks"]),
         case("missing suite folder", &["bench", "--mat-thor", "nowhere"], 20, &["nowhere"]),
         case("unknown diagnostic", &["explain", "nonsense"], 20, &["nonsense"]),
-        case("skill nobody has", &["run", apple, "--scene", "FloorPlan6", "--team", "robot24"], 10, &["PickupObject"]),
-        case("too heavy for the team", &["run", apple, "--scene", "FloorPlan6", "--team", "robot10"], 10, &["Apple_1", "kg"]),
-        case("object that is not there", &["run", "Turn on the television", "--scene", "FloorPlan6", "--team", "robot1"], 12, &["television"]),
-        case("nonsense", &["run", "Frobnicate the zorp", "--scene", "FloorPlan6", "--team", "robot1"], 12, &["frobnicate"]),
+        case(
+            "skill nobody has",
+            &["run", apple, "--scene", "FloorPlan6", "--team", "robot24"],
+            10,
+            &["PickupObject"],
+        ),
+        case(
+            "too heavy for the team",
+            &["run", apple, "--scene", "FloorPlan6", "--team", "robot10"],
+            10,
+            &["Apple_1", "kg"],
+        ),
+        case(
+            "object that is not there",
+            &["run", "Turn on the television", "--scene", "FloorPlan6", "--team", "robot1"],
+            12,
+            &["television"],
+        ),
+        case(
+            "nonsense",
+            &["run", "Frobnicate the zorp", "--scene", "FloorPlan6", "--team", "robot1"],
+            12,
+            &["frobnicate"],
+        ),
     ];
     for c in cases {
         let args: Vec<&str> = c.args.iter().map(String::as_str).collect();
         let out = output(&folder, &args);
-        let text = format!("{}{}", String::from_utf8_lossy(&out.stdout), String::from_utf8_lossy(&out.stderr));
+        let text =
+            format!("{}{}", String::from_utf8_lossy(&out.stdout), String::from_utf8_lossy(&out.stderr));
         assert_eq!(out.status.code(), Some(c.code), "{}: {text}", c.what);
         assert!(!text.contains("panicked"), "{}: {text}", c.what);
         let lower = text.to_lowercase();
@@ -81,5 +137,8 @@ fn json_is_printed_for_failures_too() {
     assert!(result["reason"].as_str().unwrap().contains("FloorPlan9999"));
     let (code, result) = json(&output(&folder, &run_args("Frobnicate the zorp", "robot1", &[])));
     assert_eq!((code, &result["outcome"]), (12, &"needs_clarification".into()));
-    assert!(result["clarification"]["not_understood"].as_array().is_some_and(|l| !l.is_empty()), "{result:#}");
+    assert!(
+        result["clarification"]["not_understood"].as_array().is_some_and(|l| !l.is_empty()),
+        "{result:#}"
+    );
 }

@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use crate::tools::{
-    Folder, README, eventually, finish, json, output, pid_of, processes_of, run_args, shared_memory_of, signal,
-    start, tag_of,
+    Folder, README, eventually, finish, json, output, pid_of, processes_of, run_args, shared_memory_of,
+    signal, start, tag_of,
 };
 
 const SOON: Duration = Duration::from_secs(20);

@@ -1,5 +1,7 @@
 //! The command as a person uses it: real processes over shared memory, right and wrong input, kills.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on says so by panicking")]
+
 mod bad_input;
 mod faults;
 mod planner;

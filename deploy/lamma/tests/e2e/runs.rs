@@ -8,7 +8,9 @@ fn skills(robot: &str) -> &'static [&'static str] {
     match robot {
         "robot17" => &["GoToObject", "OpenObject", "CloseObject", "PickupObject", "PutObject"],
         "robot24" => &["GoToObject", "SwitchOn", "SwitchOff"],
-        _ => &["GoToObject", "OpenObject", "CloseObject", "PickupObject", "PutObject", "SwitchOn", "SwitchOff"],
+        _ => {
+            &["GoToObject", "OpenObject", "CloseObject", "PickupObject", "PutObject", "SwitchOn", "SwitchOff"]
+        }
     }
 }
 
@@ -76,9 +78,8 @@ fn fifty_runs_in_a_row_and_four_at_once_leave_nothing() {
         let (code, result) = json(&output(&folder, &run_args(instruction, "robot1,robot24", &[])));
         assert_eq!(code, 0, "run {i}: {result:#}");
     }
-    let at_once: Vec<_> = (0..4)
-        .map(|_| start(&folder, &run_args(README, "robot1,robot17,robot24", &[])))
-        .collect();
+    let at_once: Vec<_> =
+        (0..4).map(|_| start(&folder, &run_args(README, "robot1,robot17,robot24", &[]))).collect();
     for child in at_once {
         let (code, result) = json(&child.wait_with_output().unwrap());
         assert_eq!(code, 0, "{result:#}");
@@ -87,9 +88,10 @@ fn fifty_runs_in_a_row_and_four_at_once_leave_nothing() {
     let runs = std::fs::read_dir(folder.0.join(".lamma/runs")).unwrap().count();
     assert_eq!(runs, 50, "each run has its own folder");
     let mine = |f: &std::path::PathBuf| {
-        std::fs::read_dir(folder.0.join(".lamma/runs")).unwrap().flatten().any(|run| {
-            f.display().to_string().contains(run.file_name().to_str().unwrap_or("?"))
-        })
+        std::fs::read_dir(folder.0.join(".lamma/runs"))
+            .unwrap()
+            .flatten()
+            .any(|run| f.display().to_string().contains(run.file_name().to_str().unwrap_or("?")))
     };
     let left: Vec<_> = ["/dev/shm", "/tmp"]
         .iter()
@@ -111,7 +113,10 @@ fn the_released_mat_thor_lines_are_benchmarked() {
     let folder = Folder::new("mat-thor");
     let tasks = data.join("mat-thor/tasks").display().to_string();
     let robots = data.join("mat-thor/robots.json").display().to_string();
-    let out = output(&folder, &["bench", "--mat-thor", &tasks, "--robots", &robots, "--format", "json", "--jobs", "2"]);
+    let out = output(
+        &folder,
+        &["bench", "--mat-thor", &tasks, "--robots", &robots, "--format", "json", "--jobs", "2"],
+    );
     let (code, result) = json(&out);
     assert_eq!(code, 0, "{}", String::from_utf8_lossy(&out.stderr));
     assert_eq!(result["tasks"].as_array().unwrap().len(), 51);
