@@ -111,10 +111,18 @@ impl Allocation {
 /// Why there is no allocation.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoAllocation {
-    /// Proved: no member, nor all together, can do it.
+    /// Proved: from the world as it is, neither a member nor all together can do it.
     Infeasible(String),
+    /// Not the way it was tried; another cut may lead there.
+    NotThisWay(String),
     /// Not found within the limits.
     GaveUp(String),
+}
+
+impl NoAllocation {
+    fn is_proof(&self) -> bool {
+        matches!(self, NoAllocation::Infeasible(_))
+    }
 }
 
 /// A sub-task, or a part of one between two hand-overs, with everybody's bids.
@@ -182,9 +190,7 @@ impl Allocator<'_> {
         let infeasible = |e: String| NoAllocation::Infeasible(format!("\"{}\": {e}", subgoal.text));
         let ground =
             self.interpreter.ground_condition(&subgoal.goal).map_err(|e| infeasible(e.to_string()))?;
-        let asked: Vec<usize> = (0..self.items.len())
-            .filter(|&i| self.items[i].finishing && subgoal.after.contains(&self.items[i].subgoal))
-            .collect();
+        let asked = self.asked(index);
         let state = self.state_after(&asked);
         let parts =
             if self.input.cut == Cut::Parts { independent_parts(&ground) } else { vec![ground.clone()] };
@@ -196,14 +202,41 @@ impl Allocator<'_> {
         Ok(())
     }
 
-    /// Every sub-task in turn, from where the ones before it lead, and without undoing them.
+    /// The items that finish the sub-tasks which this one was asked to follow. One that needed nothing to be
+    /// done stands for those it was to follow itself.
+    fn asked(&self, index: usize) -> Vec<usize> {
+        let mut asked = BTreeSet::new();
+        let mut queue = self.input.subgoals[index].after.clone();
+        while let Some(subgoal) = queue.pop() {
+            let own: Vec<usize> =
+                (0..self.items.len()).filter(|&i| self.items[i].subgoal == subgoal).collect();
+            if own.is_empty() {
+                queue.extend(&self.input.subgoals[subgoal].after);
+            }
+            asked.extend(own.into_iter().filter(|&i| self.items[i].finishing));
+        }
+        asked.into_iter().collect()
+    }
+
+    /// Every sub-task in turn, from where the ones before it lead, and without undoing them. Before that,
+    /// what is out of reach from the start is proved to be so.
     fn take_all_as_team(&mut self) -> Result<(), NoAllocation> {
+        let start = world_state(&self.input.facts);
+        let lasting = self.input.subgoals.iter().filter(|s| s.lasting).map(|s| s.goal.clone());
+        let everything = Condition::And(lasting.collect());
+        for index in 0..self.input.subgoals.len() {
+            self.plan_as_team(index, &self.input.subgoals[index].goal, &start, true, None)?;
+        }
+        if self.plan_as_team(0, &everything, &start, true, None).is_err_and(|e| e.is_proof()) {
+            let why = "each sub-task is possible, but not all of them together".to_string();
+            return Err(NoAllocation::Infeasible(why));
+        }
         let mut kept: Vec<Condition> = Vec::new();
         for index in 0..self.input.subgoals.len() {
             let subgoal = &self.input.subgoals[index];
-            let everything: Vec<usize> = (0..self.items.len()).collect();
-            let state = self.state_after(&everything);
-            self.split(index, &subgoal.goal, &everything, &state, None, &kept)?;
+            let before: Vec<usize> = (0..self.items.len()).collect();
+            let state = self.state_after(&before);
+            self.split(index, &subgoal.goal, &before, &state, None, &kept)?;
             if subgoal.lasting {
                 kept.push(subgoal.goal.clone());
             }
@@ -218,7 +251,7 @@ impl Allocator<'_> {
         asked: &[usize],
         state: &WorldState,
     ) -> Result<(), NoAllocation> {
-        let (bids, gave_up) = self.bids(Some(index), &goal, state);
+        let (bids, gave_up) = self.bids(index, &goal, state);
         if !bids.is_empty() {
             self.push(index, goal, asked.to_vec(), asked.to_vec(), bids);
             return Ok(());
@@ -227,7 +260,7 @@ impl Allocator<'_> {
         let opened: Vec<usize> = (0..self.items.len()).filter(|&i| !self.items[i].finishing).collect();
         let after = union(asked, &opened);
         if !opened.is_empty() {
-            let (bids, _) = self.bids(Some(index), &goal, &self.state_after(&after));
+            let (bids, _) = self.bids(index, &goal, &self.state_after(&after));
             if !bids.is_empty() {
                 self.push(index, goal, after, asked.to_vec(), bids);
                 return Ok(());
@@ -273,7 +306,7 @@ impl Allocator<'_> {
     /// A plan of every member that can do it alone, and why somebody gave up, if one did.
     fn bids(
         &self,
-        subgoal: Option<usize>,
+        subgoal: usize,
         goal: &Condition,
         state: &WorldState,
     ) -> (BTreeMap<usize, Vec<GroundAct>>, Option<String>) {
@@ -281,7 +314,7 @@ impl Allocator<'_> {
         let mut bids = BTreeMap::new();
         let mut gave_up = None;
         for &member in &self.input.available {
-            if subgoal.is_some_and(|s| self.input.excluded.contains(&(s, member))) {
+            if self.input.excluded.contains(&(subgoal, member)) {
                 continue;
             }
             let problem = member_problem(team, member, &state.facts, goal);
@@ -309,7 +342,7 @@ impl Allocator<'_> {
         kept: &[Condition],
     ) -> Result<(), NoAllocation> {
         let all = Condition::And(std::iter::once(goal).chain(kept).cloned().collect());
-        let plan = self.plan_as_team(index, &all, state, gave_up)?;
+        let plan = self.plan_as_team(index, &all, state, asked.is_empty(), gave_up)?;
         let team = &self.input.team;
         let segments =
             segments(team, &self.interpreter, &state.facts, &all, &plan).map_err(NoAllocation::GaveUp)?;
@@ -320,7 +353,7 @@ impl Allocator<'_> {
             let bids = if self.input.cut == Cut::Team {
                 BTreeMap::new()
             } else {
-                self.bids(None, &segment.goal, &self.state_after(&after)).0
+                self.bids(index, &segment.goal, &self.state_after(&after)).0
             };
             self.items.push(Item {
                 subgoal: index,
@@ -340,6 +373,7 @@ impl Allocator<'_> {
         index: usize,
         goal: &Condition,
         state: &WorldState,
+        from_start: bool,
         gave_up: Option<String>,
     ) -> Result<Plan, NoAllocation> {
         let (team, available, limits) = (&self.input.team, &self.input.available, self.limits());
@@ -349,7 +383,9 @@ impl Allocator<'_> {
                 let why = why_infeasible(self.input, &state.facts, goal, &limits, self.cancel);
                 let why = why.unwrap_or_else(|| reason.to_string());
                 let text = &self.input.subgoals[index].text;
-                Err(NoAllocation::Infeasible(format!("nobody of the team can do \"{text}\": {why}")))
+                let text = format!("nobody of the team can do \"{text}\": {why}");
+                // From a state that other plans led to, it is no proof.
+                Err(if from_start { NoAllocation::Infeasible(text) } else { NoAllocation::NotThisWay(text) })
             }
             Ok(Outcome::GaveUp(why)) => Err(NoAllocation::GaveUp(gave_up.unwrap_or(why.to_string()))),
             Err(why) => Err(NoAllocation::GaveUp(why)),

@@ -1,6 +1,9 @@
 //! The Sub-Plan Combiner: a valid linear plan of the team becomes a partial order with gates.
 
-use lamma_pddl::ast::Condition;
+use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use lamma_pddl::ast::{Condition, GroundAtom};
 use lamma_planner::interpreter::{GroundCondition, Interpreter, WorldState};
 use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder, literal_effects};
 use lamma_protocol::message::{Act, Gate, Step};
@@ -17,8 +20,21 @@ pub struct TeamPlan {
     pub steps: Vec<Vec<Step>>,
     /// All steps in a valid linear order, with their earliest start.
     pub timeline: Vec<TimedStep>,
+    /// When each package is done.
+    pub ends: Vec<PackageEnd>,
     /// When the last step ends if everybody acts as soon as the order allows, in steps.
     pub makespan: f64,
+}
+
+/// A package is done when its member has done so many steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PackageEnd {
+    /// The sub-tasks it serves, by index.
+    pub subgoals: Vec<usize>,
+    /// Whose.
+    pub member: usize,
+    /// Steps of the member up to its end.
+    pub done: StepIndex,
 }
 
 /// A step on the timeline.
@@ -41,13 +57,14 @@ pub fn combine(
     merger: &Merger,
     packages: &[PackageSpec],
     goal: &Condition,
+    cancel: &AtomicBool,
 ) -> Result<TeamPlan, String> {
     let ground = interpreter.ground_condition(goal).map_err(|e| e.to_string())?;
-    let merger = &without_idle_steps(interpreter, merger, &ground);
+    let merger = &without_idle_steps(interpreter, merger, &ground, cancel);
     let keep = asked_order(interpreter, merger, packages)?;
     let order = deorder(interpreter, &merger.initial, merger.steps.clone(), &ground, &keep)
         .map_err(|(i, violation)| format!("step {i} of the merged plan: {violation}"))?;
-    Ok(team_plan(team, &order))
+    Ok(team_plan(team, &order, merger, packages))
 }
 
 /// Steps beyond which idle ones are not looked for: the search is quadratic.
@@ -56,16 +73,31 @@ const MAX_ELIMINATION: usize = 120;
 /// Leaves out steps without which everything still works, as a way to a fridge that somebody else has
 /// opened (action elimination, Nakhost & Müller, "Action elimination and plan neighborhood graph search",
 /// ICAPS 2010). Every package's own goal stays reached where its steps end.
-fn without_idle_steps(interpreter: &Interpreter, merger: &Merger, goal: &GroundCondition) -> Merger {
+fn without_idle_steps(
+    interpreter: &Interpreter,
+    merger: &Merger,
+    goal: &GroundCondition,
+    cancel: &AtomicBool,
+) -> Merger {
     let mut best = merger.clone();
     if best.steps.len() > MAX_ELIMINATION {
         return best;
     }
-    let mut i = best.steps.len();
-    while i > 0 {
-        i -= 1;
+    // What is left out lies behind, so the states before a step stay as they are.
+    let mut states = vec![best.initial.clone()];
+    for step in &best.steps {
+        let mut next = states[states.len() - 1].clone();
+        if interpreter.apply(&mut next, &step.action).is_err() {
+            return best;
+        }
+        states.push(next);
+    }
+    for i in (0..best.steps.len()).rev() {
+        if cancel.load(Ordering::Relaxed) {
+            break;
+        }
         let shorter = best.without(i);
-        if shorter.is_valid(interpreter, goal) {
+        if shorter.is_valid_from(interpreter, i, states[i].clone(), goal) {
             best = shorter;
         }
     }
@@ -83,24 +115,37 @@ fn asked_order(
     for later in &merger.packages {
         let spec = &packages[later.package];
         let goal = interpreter.ground_condition(&spec.goal).map_err(|e| e.to_string())?;
-        let atoms: std::collections::BTreeSet<_> =
-            goal.literals().into_iter().map(|l| l.atom.clone()).collect();
+        let atoms: BTreeSet<_> = goal.literals().into_iter().map(|l| l.atom.clone()).collect();
         let decisive: Vec<usize> =
             later.steps.clone().filter(|&i| touches(&merger.steps[i], &atoms)).collect();
-        for earlier in merger.packages.iter().filter(|p| spec.asked_after.contains(&p.package)) {
-            if let Some(last) = earlier.steps.clone().last() {
-                keep.extend(decisive.iter().map(|&d| (last, d)));
-            }
+        for last in last_steps_before(spec, merger, packages) {
+            keep.extend(decisive.iter().map(|&d| (last, d)));
         }
     }
     Ok(keep)
 }
 
-fn touches(step: &TeamStep, atoms: &std::collections::BTreeSet<lamma_pddl::ast::GroundAtom>) -> bool {
+/// The last steps of the packages that `spec` was asked to follow. One without steps stands for those it was
+/// to follow itself.
+fn last_steps_before(spec: &PackageSpec, merger: &Merger, packages: &[PackageSpec]) -> BTreeSet<usize> {
+    let mut last = BTreeSet::new();
+    let mut queue = spec.asked_after.clone();
+    while let Some(package) = queue.pop() {
+        let steps =
+            merger.packages.iter().find(|p| p.package == package).and_then(|p| p.steps.clone().last());
+        match steps {
+            Some(step) => drop(last.insert(step)),
+            None => queue.extend(&packages[package].asked_after),
+        }
+    }
+    last
+}
+
+fn touches(step: &TeamStep, atoms: &BTreeSet<GroundAtom>) -> bool {
     literal_effects(&step.action).any(|(_, effect)| atoms.contains(&effect.atom))
 }
 
-fn team_plan(team: &Team, order: &PartialOrder) -> TeamPlan {
+fn team_plan(team: &Team, order: &PartialOrder, merger: &Merger, packages: &[PackageSpec]) -> TeamPlan {
     let gates = order.gates();
     let starts = order.earliest_starts();
     let mut steps: Vec<Vec<Step>> = vec![Vec::new(); team.members.len()];
@@ -115,7 +160,13 @@ fn team_plan(team: &Team, order: &PartialOrder) -> TeamPlan {
         steps[step.agent].push(Step { act, gates: gates.collect() });
     }
     timeline.sort_by(|a, b| a.start.total_cmp(&b.start).then(a.member.cmp(&b.member)));
-    TeamPlan { steps, timeline, makespan: order.makespan() }
+    let ends = merger.packages.iter().map(|merged| {
+        let spec = &packages[merged.package];
+        let own = order.steps[..merged.steps.end].iter().filter(|s| s.agent == spec.member).count();
+        PackageEnd { subgoals: spec.subgoals.clone(), member: spec.member, done: StepIndex(own as u32) }
+    });
+    let ends = ends.collect();
+    TeamPlan { steps, timeline, ends, makespan: order.makespan() }
 }
 
 fn act_of(ground: &lamma_planner::GroundAct) -> Act {
@@ -128,6 +179,6 @@ pub fn ground_act(act: &Act) -> lamma_planner::GroundAct {
 }
 
 /// The state of the world from its facts.
-pub fn world_state(facts: &std::collections::BTreeSet<lamma_pddl::ast::GroundAtom>) -> WorldState {
+pub fn world_state(facts: &BTreeSet<GroundAtom>) -> WorldState {
     WorldState { facts: facts.clone(), values: Default::default() }
 }

@@ -21,7 +21,7 @@ impl Coordinator {
         match &self.phase {
             Phase::Joining => after(JOIN_MS),
             Phase::Granting => after(GRANT_MS),
-            Phase::Planning(_) => after(PLAN_MS),
+            Phase::Planning(round) => Some(round.asked_at.after_ms(PLAN_MS)),
             Phase::Executing(following) => {
                 Some(following.last_progress.after_ms(STALL_MS + 2 * self.config.step_ms))
             }

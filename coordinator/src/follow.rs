@@ -25,6 +25,11 @@ impl Coordinator {
                     return self.start_combining(round);
                 }
                 let ready = round.ready();
+                if ready.is_empty() {
+                    self.put_phase(Phase::Planning(round));
+                    return self.planning_failed(Stop::Broken("packages wait for each other".into()));
+                }
+                round.asked_at = self.now;
                 for package in ready {
                     self.ask(&mut round, package);
                 }

@@ -63,15 +63,15 @@ impl CoordinatorJob {
                 CoordinatorDone::Understood(Box::new(understand(facts, cancel)))
             }
             CoordinatorJob::Allocate(input) => CoordinatorDone::Allocated(allocate(&input, cancel)),
-            CoordinatorJob::Combine(input) => CoordinatorDone::Combined(input.run()),
+            CoordinatorJob::Combine(input) => CoordinatorDone::Combined(input.run(cancel)),
         }
     }
 }
 
 impl CombineInput {
-    fn run(&self) -> Result<TeamPlan, String> {
+    fn run(&self, cancel: &AtomicBool) -> Result<TeamPlan, String> {
         let interpreter =
             Interpreter::new(&self.team.domain, &self.team.objects).map_err(|e| e.to_string())?;
-        combine(&self.team, &interpreter, &self.merger, &self.packages, &self.goal)
+        combine(&self.team, &interpreter, &self.merger, &self.packages, &self.goal, cancel)
     }
 }

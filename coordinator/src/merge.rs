@@ -96,15 +96,19 @@ impl Merger {
         shorter
     }
 
-    /// Whether every step is possible, every package reaches its goal, and `goal` holds at the end.
-    pub fn is_valid(&self, interpreter: &Interpreter, goal: &GroundCondition) -> bool {
-        let mut state = self.initial.clone();
-        let mut packages = self.packages.iter().peekable();
-        for at in 0..=self.steps.len() {
-            while let Some(package) = packages.next_if(|p| p.steps.end == at) {
-                if !interpreter.holds(&state, &package.goal) {
-                    return false;
-                }
+    /// Whether every step from `from` on is possible, every package that ends there or later reaches its goal,
+    /// and `goal` holds at the end. `state` is the one before step `from`.
+    pub fn is_valid_from(
+        &self,
+        interpreter: &Interpreter,
+        from: usize,
+        mut state: WorldState,
+        goal: &GroundCondition,
+    ) -> bool {
+        for at in from..=self.steps.len() {
+            let mut ending = self.packages.iter().filter(|p| p.steps.end == at);
+            if !ending.all(|p| interpreter.holds(&state, &p.goal)) {
+                return false;
             }
             if let Some(step) = self.steps.get(at)
                 && interpreter.apply(&mut state, &step.action).is_err()

@@ -57,6 +57,8 @@ pub(crate) struct Round {
     pub merged: BTreeSet<usize>,
     /// The batch: what each package was asked for as.
     pub asked: BTreeMap<usize, PackageId>,
+    /// When the batch was asked for.
+    pub asked_at: Tick,
     /// Everything asked for so far in this epoch, per member: a directive states all of it.
     pub directives: Vec<Vec<Package>>,
     pub next_id: u32,
@@ -71,6 +73,7 @@ impl Round {
             merger,
             merged: BTreeSet::new(),
             asked: BTreeMap::new(),
+            asked_at: Tick(0),
             directives: vec![Vec::new(); members],
             next_id: 0,
             conflicts: 0,

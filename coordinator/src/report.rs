@@ -25,9 +25,6 @@ impl Coordinator {
                 let missing = goal.missing.join(", ");
                 (OutcomeKind::GoalNotReached, Some(format!("does not hold at the end: {missing}")))
             }
-            OutcomeKind::GoalNotReached | OutcomeKind::GaveUp | OutcomeKind::Error if reached => {
-                (OutcomeKind::Success, None)
-            }
             kind => (kind, reason),
         };
         RunResult {

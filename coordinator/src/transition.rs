@@ -108,13 +108,12 @@ impl Coordinator {
         }
     }
 
-    /// Sub-goals that need not last and whose robots have done all their steps are not planned for again.
-    fn note_reached_on_the_way(&mut self, plan: &TeamPlan, done: &[StepIndex]) {
-        let (Some(understanding), Some(allocation)) = (&self.understanding, &self.allocation) else { return };
-        let finished = |member: &usize| done[*member].index() >= plan.steps[*member].len();
+    /// Sub-goals that need not last and whose packages are done are not planned for again.
+    pub(crate) fn note_reached_on_the_way(&mut self, plan: &TeamPlan, done: &[StepIndex]) {
+        let Some(understanding) = &self.understanding else { return };
         for (s, subgoal) in understanding.subgoals.iter().enumerate() {
-            let members = allocation.members_of(s);
-            if !subgoal.lasting && !members.is_empty() && members.iter().all(finished) {
+            let mut ends = plan.ends.iter().filter(|e| e.subgoals.contains(&s)).peekable();
+            if !subgoal.lasting && ends.peek().is_some() && ends.all(|e| done[e.member] >= e.done) {
                 self.reached_on_the_way.insert(s);
             }
         }
@@ -150,7 +149,7 @@ impl Coordinator {
             return;
         }
         if self.roster.all_joined() && self.view.state().is_some() {
-            self.event(EventKind::Note, format!("{} robots are here", self.roster.available().len()));
+            self.event(EventKind::Note, crowd(self.roster.available().len()));
             self.begin_epoch();
         }
     }
@@ -249,8 +248,9 @@ impl Coordinator {
                     .filter_map(|a| self.roster.lost_reason(a).map(|r| format!("{} {r}", self.name_of(a))))
                     .collect();
                 let lost = if lost.is_empty() { String::new() } else { format!(" ({})", lost.join("; ")) };
-                return self.coarsen(OutcomeKind::Infeasible, format!("{why}{lost}"));
+                return self.finish(OutcomeKind::Infeasible, Some(format!("{why}{lost}")));
             }
+            Err(NoAllocation::NotThisWay(why)) => return self.coarsen(OutcomeKind::GaveUp, why),
             Err(NoAllocation::GaveUp(why)) => return self.coarsen(OutcomeKind::GaveUp, why),
         };
         let Some(facts) = self.view.state() else { return };
@@ -321,6 +321,10 @@ impl Coordinator {
         }
         self.commanded = Some(revision);
         if command.stop {
+            if !matches!(self.phase, Phase::Finished) {
+                self.finish(OutcomeKind::GaveUp, Some("interrupted".into()));
+            }
+            self.say_outcome();
             self.outputs.push_back(Output::Finish);
             return;
         }
@@ -367,5 +371,12 @@ impl Coordinator {
                 CoordinatorDone::Understood(_) | CoordinatorDone::Allocated(_) | CoordinatorDone::Combined(_),
             ) => {}
         }
+    }
+}
+
+fn crowd(robots: usize) -> String {
+    match robots {
+        1 => "one robot is here".into(),
+        n => format!("{n} robots are here"),
     }
 }

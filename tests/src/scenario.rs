@@ -6,7 +6,7 @@ use lamma_coordinator::result::RunResult;
 use lamma_coordinator::{
     Coordinator, CoordinatorConfig, GoalGroup, GoalItem, Member, ScoreGoal, Subgoal, Team, Understanding,
 };
-use lamma_pddl::ast::{Domain, Init, TypedName};
+use lamma_pddl::ast::{Condition, Domain, Init, TypedName};
 use lamma_pddl::{Name, Source, parse_condition, parse_domain, parse_ground_atom};
 use lamma_planner::interpreter::{Interpreter, WorldState};
 use lamma_protocol::AgentId;
@@ -23,6 +23,8 @@ pub struct Scenario {
     init: Vec<Init>,
     understanding: Understanding,
     interpreter: Interpreter,
+    /// What never holds if the order that was asked for is kept.
+    forbidden: Condition,
 }
 
 impl Scenario {
@@ -61,7 +63,38 @@ impl Scenario {
             ("the pear into the cupboard", "(in pear cupboard)", vec![]),
             ("the light out", "(dark)", vec![0, 1]),
         ];
-        Scenario::build(&robots, &objects, &init, &subgoals)
+        let out_of_order = "(and (dark) (or (not (in apple cupboard)) (not (in pear cupboard))))";
+        Scenario::build(&robots, &objects, &init, &subgoals, out_of_order)
+    }
+
+    /// One thing after the other, where the one in the middle needs nothing to be done: the order of the
+    /// outer two must not get lost over it.
+    pub fn chain() -> Self {
+        let robots: [(&str, &[&str]); 2] =
+            [("carrier", &["Go", "Open", "Pick", "Put"]), ("switcher", &["Go", "Darken"])];
+        let objects = [("apple", "item"), ("table", "place"), ("cupboard", "door-place"), ("wall", "place")];
+        let init = [
+            "(in apple table)",
+            "(open table)",
+            "(open floor)",
+            "(at carrier wall)",
+            "(at switcher wall)",
+            "(hand-free carrier)",
+            "(hand-free switcher)",
+        ];
+        let subgoals = [
+            ("the apple into the cupboard", "(in apple cupboard)", vec![]),
+            ("a free hand", "(hand-free switcher)", vec![0]),
+            ("the light out", "(dark)", vec![1]),
+        ];
+        Scenario::build(&robots, &objects, &init, &subgoals, "(and (dark) (not (in apple cupboard)))")
+    }
+
+    /// The order that was asked for is kept in this state.
+    pub(crate) fn in_order(&self, state: &WorldState) -> bool {
+        self.interpreter
+            .ground_condition(&self.forbidden)
+            .is_ok_and(|forbidden| !self.interpreter.holds(state, &forbidden))
     }
 
     fn build(
@@ -69,6 +102,7 @@ impl Scenario {
         objects: &[(&str, &str)],
         init: &[&str],
         subgoals: &[(&str, &str, Vec<usize>)],
+        forbidden: &str,
     ) -> Self {
         let world = parse_domain(&Source::new("mini.pddl", MINI)).expect("the domain parses").value;
         let project = |skills: &[&str]| {
@@ -115,7 +149,8 @@ impl Scenario {
         };
         let init = init.iter().map(|f| Init::Fact(parse_ground_atom(f).expect("the fact parses"))).collect();
         let interpreter = Interpreter::new(&world, &objects).expect("the domain makes sense");
-        Scenario { team, world, init, understanding, interpreter }
+        let forbidden = condition(forbidden);
+        Scenario { team, world, init, understanding, interpreter, forbidden }
     }
 
     pub(crate) fn robot(&self, index: usize) -> Robot {

@@ -156,6 +156,9 @@ impl Testbed<'_> {
             if let Some(violation) = self.violation.take() {
                 return Err(violation);
             }
+            if !scenario.in_order(self.arbiter.state()) {
+                return Err("ORDER: a sub-task was reached before what it was asked to follow".into());
+            }
             if let Some(json) = self.coordinator.result() {
                 let result: RunResult = serde_json::from_str(json).map_err(|e| e.to_string())?;
                 return self.truthful(scenario, result);

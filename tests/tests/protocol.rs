@@ -17,6 +17,15 @@ fn without_faults_the_team_reaches_its_goal_in_the_shortest_time() {
     insta::assert_yaml_snapshot!(result.plan.actions);
 }
 
+#[test]
+fn an_order_is_kept_across_a_sub_task_that_needs_nothing() {
+    let run = run_with(&Scenario::chain(), 0, Rng::new(0), FaultPlan::none(), &mut PlanCache::new());
+    let result = run.result.unwrap();
+    assert_eq!(result.outcome, OutcomeKind::Success, "{result:#?}");
+    let start = |action: &str| result.plan.actions.iter().find(|a| a.action == action).unwrap().start;
+    assert!(start("Darken") > start("Put"), "{:#?}", result.plan.actions);
+}
+
 /// 1,000 schedules: no invariant is violated, every run ends.
 #[test]
 fn a_thousand_faulty_schedules_keep_every_invariant() {

@@ -1,5 +1,6 @@
 //! What `--format json` prints: the coordinator's result with what only the launcher knows.
 
+use lamma_coordinator::result::{OutcomeKind, RunResult};
 use serde_json::{Value, json};
 
 use crate::cli::{BusArg, CommonArgs};
@@ -24,7 +25,7 @@ pub fn run(launched: &Launched, common: &CommonArgs) -> Value {
     value
 }
 
-/// A failure before or beside a run.
+/// A failure before or beside a run, with all keys of a result.
 pub fn error(text: &str) -> Value {
-    json!({ "outcome": "error", "reason": text })
+    serde_json::to_value(RunResult::unfinished(OutcomeKind::Error, text)).unwrap_or_default()
 }

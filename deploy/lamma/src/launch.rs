@@ -22,6 +22,9 @@ const GRACE: Duration = Duration::from_secs(10);
 /// How often the supervisor repeats itself and looks for the dead when nothing wakes it.
 const PULSE: Duration = Duration::from_millis(50);
 
+/// How long the coordinator has for its last word after an interrupt.
+const LAST_WORD: Duration = Duration::from_millis(500);
+
 /// A process of the run, for the record.
 #[derive(Clone, Debug, Serialize)]
 pub struct ProcessRecord {
@@ -86,7 +89,7 @@ struct Supervisor {
     revision: u64,
     outcome: Option<(Revision, Outcome)>,
     next_event: u64,
-    interrupted: bool,
+    interrupted: Option<Instant>,
 }
 
 impl Supervisor {
@@ -98,7 +101,7 @@ impl Supervisor {
             revision: 0,
             outcome: None,
             next_event: 0,
-            interrupted: false,
+            interrupted: None,
         }
     }
 
@@ -111,14 +114,19 @@ impl Supervisor {
                 self.say(host.bus())?;
                 return Ok(result);
             }
-            for death in host.deaths() {
+            // Who was told to stop may end.
+            let deaths = if self.command.stop { Vec::new() } else { host.deaths() };
+            for death in deaths {
                 self.died(death.node, &death.how)?;
                 self.say(host.bus())?;
             }
-            if host.interrupted() && !self.interrupted {
-                self.interrupted = true;
+            if host.interrupted() && self.interrupted.is_none() {
+                self.interrupted = Some(Instant::now());
                 self.command.stop = true;
                 self.say(host.bus())?;
+            }
+            // The coordinator says how far the run had come, if it still can.
+            if self.interrupted.is_some_and(|at| at.elapsed() > LAST_WORD) {
                 return Ok(RunResult::unfinished(OutcomeKind::GaveUp, "interrupted"));
             }
             if self.started.elapsed() > self.limit {

@@ -7,6 +7,7 @@ mod exit;
 mod host;
 mod json;
 mod launch;
+mod out;
 mod process;
 mod process_host;
 mod show;
@@ -71,7 +72,7 @@ fn format_of(command: &Command) -> Format {
 fn report(failure: &Failure, format: Format) -> u8 {
     eprintln!("error: {failure}");
     if format == Format::Json {
-        println!("{}", json::error(&failure.text));
+        out::say(json::error(&failure.text));
     }
     failure.code
 }

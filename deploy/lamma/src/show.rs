@@ -76,13 +76,23 @@ fn timeline(out: &mut String, actions: &[ActionResult]) -> std::fmt::Result {
     Ok(())
 }
 
+fn bound(result: &RunResult) -> String {
+    let (makespan, bound) = (result.plan.makespan, result.plan.makespan_lower_bound);
+    match () {
+        () if result.outcome != OutcomeKind::Success => String::new(),
+        () if makespan <= bound => " (proved shortest)".into(),
+        () => format!(" (no plan is shorter than {bound})"),
+    }
+}
+
 fn numbers(out: &mut String, result: &RunResult) -> std::fmt::Result {
     let plan = &result.plan;
-    let proved = if plan.makespan <= plan.makespan_lower_bound { ", proved shortest" } else { "" };
     writeln!(
         out,
-        "\n{HEAD}plan{HEAD:#}     {} steps, makespan {} (no plan is shorter than {}{proved})",
-        plan.length, plan.makespan, plan.makespan_lower_bound
+        "\n{HEAD}plan{HEAD:#}     {} steps, makespan {}{}",
+        plan.length,
+        plan.makespan,
+        bound(result)
     )?;
     let goal = &result.goal;
     writeln!(out, "{HEAD}goal{HEAD:#}     {} of {} facts hold", goal.reached, goal.total)?;
@@ -93,10 +103,10 @@ fn numbers(out: &mut String, result: &RunResult) -> std::fmt::Result {
     let optional = |v: Option<f64>| v.map_or("-".to_string(), |v| format!("{v:.2}"));
     writeln!(
         out,
-        "{HEAD}metrics{HEAD:#}  SR {:.2}  GCR {:.2}  Exe {:.2}  RU {}  Eff {}",
+        "{HEAD}metrics{HEAD:#}  SR {:.2}  GCR {:.2}  Exe {}  RU {}  Eff {}",
         m.sr,
         m.gcr,
-        m.exe,
+        if plan.length > 0 { format!("{:.2}", m.exe) } else { "-".into() },
         optional(m.ru),
         optional(m.eff)
     )?;

@@ -15,6 +15,7 @@ use crate::error::Failure;
 use crate::exit;
 use crate::json;
 use crate::launch::launch;
+use crate::out::say;
 use crate::spec::{RunSpec, Task};
 use crate::suite::{self, Entry, Suite};
 use crate::supervise::RunDir;
@@ -175,14 +176,14 @@ fn report(args: &BenchArgs, suite: &Suite, finished: &[Finished], seconds: f64) 
         write_out(out, &value, suite, finished)?;
     }
     match args.common.format {
-        Format::Json => println!("{}", serde_json::to_string(&value).map_err(Failure::fault)?),
+        Format::Json => say(serde_json::to_string(&value).map_err(Failure::fault)?),
         Format::Text => {
-            print!("{}", table::text(&suite.name, &rows));
+            say(table::text(&suite.name, &rows).trim_end());
             let n = finished.len();
-            println!(
+            say(format_args!(
                 "{n} tasks in {seconds:.1} s; seed {}; goals judged on the simulator's state",
                 args.common.seed
-            );
+            ));
         }
     }
     Ok(())

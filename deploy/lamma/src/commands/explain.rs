@@ -2,12 +2,13 @@
 
 use crate::error::Failure;
 use crate::exit;
+use crate::out::say;
 
 /// Prints the paragraph for a code.
 pub fn explain(code: &str) -> Result<u8, Failure> {
     match lamma_pddl::explain(code) {
         Some(text) => {
-            println!("{text}");
+            say(format_args!("{text}"));
             Ok(exit::SUCCESS)
         }
         None => Err(Failure::bad_input(format!(

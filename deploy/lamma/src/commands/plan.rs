@@ -13,6 +13,7 @@ use crate::cli::PlanArgs;
 use crate::commands::read_source;
 use crate::error::Failure;
 use crate::exit;
+use crate::out::say;
 
 /// A classical planning task as the user gave it.
 pub struct Task {
@@ -70,7 +71,7 @@ pub fn plan(args: &PlanArgs) -> Result<u8, Failure> {
                 return Err(Failure::fault(format!("the planner found a wrong plan: {verdict}")));
             }
             let text = write_plan(&plan, cost_kind(&task.problem));
-            print!("{text}");
+            say(text.trim_end());
             if let Some(path) = &args.plan_file {
                 std::fs::write(path, &text)
                     .map_err(|e| Failure::bad_input(format!("cannot write {}: {e}", path.display())))?;

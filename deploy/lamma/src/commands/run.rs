@@ -12,6 +12,7 @@ use crate::error::Failure;
 use crate::exit;
 use crate::json;
 use crate::launch::{Launched, launch};
+use crate::out::say;
 use crate::show;
 use crate::spec::{LmSpec, RunSpec, Task};
 use crate::supervise::RunDir;
@@ -74,6 +75,10 @@ pub fn in_folder(
     watcher: &mut dyn Watcher,
 ) -> Result<Launched, Failure> {
     let folder = RunDir::create(common.run_dir.as_deref()).map_err(Failure::bad_input)?;
+    if folder.path().join("run.json").exists() {
+        let path = folder.path().display();
+        return Err(Failure::bad_input(format!("{path} holds a run already: choose another --run-dir")));
+    }
     spec.id = folder.id().to_string();
     let path: PathBuf = folder.path().to_path_buf();
     let launched = launch(spec, world, common.bus, &path, watcher)?;
@@ -95,12 +100,12 @@ fn lines(format: Format) -> Box<dyn Watcher> {
 fn print(launched: &Launched, common: &CommonArgs) -> Result<(), Failure> {
     match common.format {
         Format::Text => {
-            anstream::print!("{}", show::result(&launched.result));
-            anstream::println!("         run folder {}", launched.folder.display());
+            say(show::result(&launched.result).trim_end());
+            say(format_args!("         run folder {}", launched.folder.display()));
         }
         Format::Json => {
             let json = json::run(launched, common);
-            println!("{}", serde_json::to_string(&json).map_err(Failure::fault)?);
+            say(serde_json::to_string(&json).map_err(Failure::fault)?);
         }
     }
     Ok(())

@@ -162,7 +162,23 @@ fn skill_facts(world: &WorldSetup) -> BTreeMap<Name, Vec<GroundAtom>> {
             facts.entry(Name::new(action)).or_default().extend(world.members.iter().map(of));
         }
     }
+    // The world says what a member can lift only of those who can carry at all.
+    for action in ["PickupObject", "PutObject"] {
+        facts.entry(Name::new(action)).or_default().extend(liftable(world));
+    }
     facts
+}
+
+/// `(can-lift robot thing)` as the capacities allow, whatever the skills.
+fn liftable(world: &WorldSetup) -> Vec<GroundAtom> {
+    let can = |m: &lamma_domains::world::Member, t: &lamma_domains::world::Thing| {
+        t.can("pickupable") && t.mass_kg <= m.capacity_kg
+    };
+    let of = |m| {
+        let things = world.things.iter().filter(move |t| can(m, t));
+        things.map(move |t| GroundAtom::new("can-lift", [m.name.as_str(), t.name.as_str()]))
+    };
+    world.members.iter().flat_map(of).collect()
 }
 
 /// Things that nobody of the team can lift: obstacles with a name.
