@@ -11,8 +11,7 @@ use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::{Condition, GroundAtom};
 use lamma_planner::interpreter::{Interpreter, WorldState};
-use lamma_planner::{GroundAct, Plan};
-use lamma_planner::{Limits, Outcome};
+use lamma_planner::{GroundAct, Limits, Outcome, Plan, SearchOptions, plan_with};
 
 use crate::assign::{Work, assign};
 use crate::bound::makespan_lower_bound;
@@ -23,6 +22,9 @@ use crate::reason::why_infeasible;
 use crate::split::{segments, team_plan};
 use crate::team::Team;
 use crate::understand::Subgoal;
+
+/// States estimated to make a bid shorter; about what robots spend on the plan itself.
+const IMPROVEMENT: u64 = 600;
 
 /// How finely sub-tasks are cut before they are given out. The coarser cuts are what remains when a finer one
 /// did not lead to a plan: they lose parallelism and gain certainty.
@@ -311,6 +313,7 @@ impl Allocator<'_> {
         state: &WorldState,
     ) -> (BTreeMap<usize, Vec<GroundAct>>, Option<String>) {
         let team = &self.input.team;
+        let options = SearchOptions { improvement: Some(IMPROVEMENT), ..SearchOptions::default() };
         let mut bids = BTreeMap::new();
         let mut gave_up = None;
         for &member in &self.input.available {
@@ -318,7 +321,7 @@ impl Allocator<'_> {
                 continue;
             }
             let problem = member_problem(team, member, &state.facts, goal);
-            match lamma_planner::plan(&team.members[member].domain, &problem, &self.limits(), self.cancel) {
+            match plan_with(&team.members[member].domain, &problem, &options, &self.limits(), self.cancel) {
                 Ok(Outcome::Found(plan)) => {
                     bids.insert(member, plan.acts);
                 }

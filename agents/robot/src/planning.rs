@@ -6,8 +6,12 @@ use std::sync::atomic::AtomicBool;
 use lamma_pddl::ast::Domain;
 use lamma_pddl::{Source, check_problem, parse_problem};
 use lamma_planner::validate::validate;
-use lamma_planner::{Limits, Outcome};
+use lamma_planner::{Limits, Outcome, SearchOptions, plan_with};
 use lamma_protocol::message::{Act, Package, PackageReport, PlanResult};
+
+/// States estimated to make a plan shorter: some ten milliseconds in a kitchen, and well spent, since each
+/// step saved is a time step of the whole team.
+pub const IMPROVEMENT: u64 = 600;
 
 /// Work that the robot hands out: plan one package.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,8 +45,9 @@ impl RobotJob {
         if report.has_errors() {
             return PlanResult::Malformed(report.to_string());
         }
+        let options = SearchOptions { improvement: Some(IMPROVEMENT), ..SearchOptions::default() };
         let limits = Limits { expansions: Some(self.expansions), ..Limits::default() };
-        match lamma_planner::plan(&self.domain, &problem, &limits, cancel) {
+        match plan_with(&self.domain, &problem, &options, &limits, cancel) {
             Err(error) => PlanResult::Malformed(error.to_string()),
             Ok(Outcome::Unsolvable(reason)) => PlanResult::Infeasible(reason.to_string()),
             Ok(Outcome::GaveUp(limit)) => PlanResult::GaveUp(limit.to_string()),

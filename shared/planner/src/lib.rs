@@ -17,7 +17,8 @@ pub use ground::{GroundError, GroundLimits, ground};
 pub use interpreter::{GroundAction, GroundCondition, GroundEffect, Interpreter, WorldState};
 pub use plan::{GroundAct, Literal, Plan};
 pub use search::{
-    Engine, GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, plan, relaxed_plan_cost, solve,
+    Engine, GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, plan, plan_with,
+    relaxed_plan_cost, solve,
 };
 pub use task::{FactId, OperatorId, State, Task};
 pub use validate::{Verdict, read_plan, validate, write_plan};

@@ -144,8 +144,19 @@ pub fn plan(
     limits: &Limits,
     cancel: &AtomicBool,
 ) -> Result<Outcome, GroundError> {
+    plan_with(domain, problem, &SearchOptions::default(), limits, cancel)
+}
+
+/// Grounds a task and searches.
+pub fn plan_with(
+    domain: &Domain,
+    problem: &Problem,
+    options: &SearchOptions,
+    limits: &Limits,
+    cancel: &AtomicBool,
+) -> Result<Outcome, GroundError> {
     let task = ground(domain, problem, &GroundLimits::default())?;
-    Ok(solve(&task, &SearchOptions::default(), limits, cancel))
+    Ok(solve(&task, options, limits, cancel))
 }
 
 /// h_FF of the initial state with every action at cost one: how many actions a relaxed plan has. `None` if
