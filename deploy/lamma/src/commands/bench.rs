@@ -180,6 +180,10 @@ fn report(args: &BenchArgs, suite: &Suite, finished: &[Finished], seconds: f64) 
         Format::Text => {
             say(table::text(&suite.name, &rows).trim_end());
             let n = finished.len();
+            let known = suite.entries.iter().filter(|e| e.task.reference.is_some()).count();
+            say(format_args!(
+                "RU and Eff: against the best schedule known: for {known} of {n} tasks the file's, else the run's own first plan"
+            ));
             say(format_args!(
                 "{n} tasks in {seconds:.1} s; seed {}; goals judged on the simulator's state",
                 args.common.seed
