@@ -1,0 +1,172 @@
+//! What deordering promises: every order that the partial order allows reaches the goal from the same start.
+//!
+//! Random walks of a team through a small world with doors, hands and conditional effects are deordered for a
+//! random part of what they achieve, and then carried out in random other orders, each step on the plain
+//! semantics.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on says so by panicking")]
+
+use lamma_pddl::ast::{Condition, Init, TypedName};
+use lamma_pddl::{Source, parse_condition, parse_domain, parse_ground_atom};
+use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder};
+use lamma_planner::{GroundAct, GroundCondition, Interpreter, WorldState};
+use proptest::prelude::*;
+
+const DOMAIN: &str = "(define (domain flat)
+  (:requirements :typing :negative-preconditions :conditional-effects :universal-preconditions)
+  (:types robot thing place lamp)
+  (:predicates (at ?r - robot ?p - place) (in ?x - thing ?p - place) (holding ?r - robot ?x - thing)
+    (free ?r - robot) (open ?p - place) (lit ?p - place) (seen ?x - thing) (powered))
+  (:action go :parameters (?r - robot ?p - place) :precondition ()
+    :effect (and (forall (?q - place) (not (at ?r ?q))) (at ?r ?p)))
+  (:action open :parameters (?r - robot ?p - place)
+    :precondition (and (at ?r ?p) (not (open ?p))) :effect (open ?p))
+  (:action close :parameters (?r - robot ?p - place)
+    :precondition (and (at ?r ?p) (open ?p)) :effect (not (open ?p)))
+  (:action pick :parameters (?r - robot ?x - thing ?p - place)
+    :precondition (and (at ?r ?p) (in ?x ?p) (free ?r) (open ?p))
+    :effect (and (holding ?r ?x) (not (free ?r)) (not (in ?x ?p)) (not (seen ?x))))
+  (:action put :parameters (?r - robot ?x - thing ?p - place)
+    :precondition (and (at ?r ?p) (holding ?r ?x) (open ?p))
+    :effect (and (in ?x ?p) (free ?r) (not (holding ?r ?x)) (when (lit ?p) (seen ?x))))
+  (:action power :parameters (?r - robot) :precondition ()
+    :effect (and (when (powered) (not (powered))) (when (not (powered)) (powered))))
+  (:action light :parameters (?r - robot ?p - place)
+    :precondition (and (at ?r ?p) (or (powered) (open ?p)))
+    :effect (and (lit ?p) (forall (?x - thing) (when (in ?x ?p) (seen ?x))))))";
+
+struct World {
+    interpreter: Interpreter,
+    initial: WorldState,
+    acts: Vec<(usize, GroundAct)>,
+}
+
+fn world() -> World {
+    let domain = parse_domain(&Source::new("flat.pddl", DOMAIN)).unwrap().value;
+    let (robots, things, places) = (["r1", "r2", "r3"], ["x", "y"], ["a", "b", "c"]);
+    let typed = |names: &[&str], of: &str| names.iter().map(|n| TypedName::new(*n, of)).collect::<Vec<_>>();
+    let objects = [typed(&robots, "robot"), typed(&things, "thing"), typed(&places, "place")].concat();
+    let interpreter = Interpreter::new(&domain, &objects).unwrap();
+    let facts = [
+        "(at r1 a)",
+        "(at r2 b)",
+        "(at r3 c)",
+        "(free r1)",
+        "(free r2)",
+        "(free r3)",
+        "(in x a)",
+        "(in y b)",
+        "(open a)",
+    ];
+    let init: Vec<Init> = facts.iter().map(|f| Init::Fact(parse_ground_atom(f).unwrap())).collect();
+    let initial = interpreter.initial(&init).unwrap();
+    let mut acts = Vec::new();
+    for (agent, r) in robots.iter().enumerate() {
+        acts.push((agent, GroundAct::new("power", [*r])));
+        for p in places {
+            for action in ["go", "open", "close", "light"] {
+                acts.push((agent, GroundAct::new(action, [*r, p])));
+            }
+            for x in things {
+                acts.push((agent, GroundAct::new("pick", [*r, x, p])));
+                acts.push((agent, GroundAct::new("put", [*r, x, p])));
+            }
+        }
+    }
+    World { interpreter, initial, acts }
+}
+
+/// A valid walk: of the acts drawn, those that are possible.
+fn walk(world: &World, draws: &[usize]) -> Vec<TeamStep> {
+    let mut state = world.initial.clone();
+    let mut steps = Vec::new();
+    for draw in draws {
+        let (agent, act) = &world.acts[draw % world.acts.len()];
+        let action = world.interpreter.instantiate(act).unwrap();
+        if world.interpreter.apply(&mut state, &action).is_ok() {
+            steps.push(TeamStep { agent: *agent, action });
+        }
+    }
+    steps
+}
+
+/// Some of what holds at the end, and some of what does not.
+fn goal(world: &World, end: &WorldState, draws: &[usize]) -> GroundCondition {
+    let facts: Vec<String> = end.facts.iter().map(ToString::to_string).collect();
+    let mut parts: Vec<Condition> =
+        draws.iter().map(|d| parse_condition(&facts[d % facts.len()]).unwrap()).collect();
+    for absent in ["(powered)", "(open b)", "(seen x)", "(in y b)"] {
+        if !facts.iter().any(|f| f == absent) {
+            parts.push(parse_condition(&format!("(not {absent})")).unwrap());
+        }
+    }
+    world.interpreter.ground_condition(&Condition::And(parts)).unwrap()
+}
+
+/// Carries the steps out in the order in which `draws` picks from those that may go next.
+fn carry_out(world: &World, order: &PartialOrder, draws: &[usize]) -> Result<WorldState, String> {
+    let mut state = world.initial.clone();
+    let mut done = vec![false; order.steps.len()];
+    for turn in 0..order.steps.len() {
+        let ready: Vec<usize> =
+            (0..done.len()).filter(|&i| !done[i] && order.before[i].iter().all(|&p| done[p])).collect();
+        let next = ready[draws[turn % draws.len()] % ready.len()];
+        let step = &order.steps[next];
+        world
+            .interpreter
+            .apply(&mut state, &step.action)
+            .map_err(|v| format!("step {next}, {}: {v}", step.action.act))?;
+        done[next] = true;
+    }
+    Ok(state)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_allowed_order_reaches_the_goal(
+        draws in proptest::collection::vec(any::<usize>(), 20..400),
+        wanted in proptest::collection::vec(any::<usize>(), 1..4),
+        orders in proptest::collection::vec(proptest::collection::vec(any::<usize>(), 7..30), 6),
+    ) {
+        let world = world();
+        let steps: Vec<TeamStep> = walk(&world, &draws).into_iter().take(14).collect();
+        let mut reached = world.initial.clone();
+        for step in &steps {
+            world.interpreter.apply(&mut reached, &step.action).unwrap();
+        }
+        let goal = goal(&world, &reached, &wanted);
+        let order = deorder(&world.interpreter, &world.initial, steps, &goal, &[])
+            .map_err(|(i, v)| TestCaseError::fail(format!("step {i}: {v}")))?;
+        prop_assert!(order.makespan() <= order.steps.len() as f64);
+        for draws in &orders {
+            let state = carry_out(&world, &order, draws).map_err(TestCaseError::fail)?;
+            prop_assert!(world.interpreter.holds(&state, &goal), "{goal} does not hold after another order");
+        }
+    }
+}
+
+/// A team's gates let through what the partial order lets through.
+#[test]
+fn independent_robots_wait_for_nobody_and_a_hand_over_has_one_gate() {
+    let world = world();
+    let acts = [
+        (0, "go r1 a"),
+        (1, "go r2 b"),
+        (1, "open r2 b"),
+        (0, "pick r1 x a"),
+        (0, "go r1 b"),
+        (0, "put r1 x b"),
+    ];
+    let steps = acts.iter().map(|(agent, text)| {
+        let mut words = text.split(' ');
+        let act = GroundAct::new(words.next().unwrap(), words);
+        TeamStep { agent: *agent, action: world.interpreter.instantiate(&act).unwrap() }
+    });
+    let goal = world.interpreter.ground_condition(&parse_condition("(in x b)").unwrap()).unwrap();
+    let order = deorder(&world.interpreter, &world.initial, steps.collect(), &goal, &[]).unwrap();
+    assert_eq!(order.makespan(), 4.0);
+    let gates: Vec<_> = order.gates().into_iter().enumerate().filter(|(_, g)| !g.is_empty()).collect();
+    assert_eq!(gates, [(5, vec![(1, 2)])], "only the putting waits, for the door");
+}
