@@ -12,7 +12,7 @@ use lamma_domains::goal::{Content, GoalEntry};
 use lamma_domains::view::views;
 use lamma_domains::world::WorldSetup;
 use lamma_lm::{
-    Answer, Clarification, Decomposition, LanguageModel, ObjectView, Request, RobotView, Subtask,
+    Answer, Clarification, Decomposition, LanguageModel, Request, RobotView, Subtask,
 };
 use lamma_pddl::ast::GroundAtom;
 
@@ -66,16 +66,6 @@ fn nothing_to_do(instruction: &Instruction, decomposition: &Decomposition) -> Cl
 }
 
 fn request(world: &WorldSetup, facts: &BTreeSet<GroundAtom>, instruction: &Instruction) -> Request {
-    let objects = views(world, facts).into_iter().map(|v| ObjectView {
-        name: v.name,
-        kind: v.kind,
-        parents: v.parents,
-        affordances: v.affordances,
-        states: v.states,
-        accepts: v.accepts,
-        materials: v.materials,
-        mass_kg: v.mass_kg,
-    });
     let robots = world.members.iter().map(|m| RobotView {
         name: m.name.clone(),
         skills: m.skills.clone(),
@@ -83,7 +73,7 @@ fn request(world: &WorldSetup, facts: &BTreeSet<GroundAtom>, instruction: &Instr
     });
     Request {
         instruction: instruction.text.clone(),
-        objects: objects.collect(),
+        objects: views(world, facts),
         robots: robots.collect(),
         assume: instruction.assume,
         deadline: instruction.deadline,

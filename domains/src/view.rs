@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 
 use lamma_pddl::Name;
 use lamma_pddl::ast::GroundAtom;
+use serde::{Deserialize, Serialize};
 
 use crate::kinds::Kinds;
 use crate::world::{Thing, WorldSetup};
 
 /// An object as it is now.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ObjectView {
     /// `Apple_1`
     pub name: String,

@@ -4,6 +4,8 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+pub use lamma_domains::view::ObjectView;
+
 /// A question.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Request {
@@ -17,29 +19,6 @@ pub struct Request {
     pub assume: bool,
     /// How long the answer may take.
     pub deadline: Duration,
-}
-
-/// An object as it is now.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ObjectView {
-    /// `Apple_1`
-    pub name: String,
-    /// `Apple`
-    pub kind: String,
-    /// The objects it lies in or on.
-    pub parents: Vec<String>,
-    /// Affordances by their AI2-THOR names: `pickupable`, `receptacle`, `openable`, `toggleable`,
-    /// `sliceable`, `cookable`, `breakable`, `dirtyable`, `canFillWithLiquid`, `canBeUsedUp`,
-    /// `isHeatSource`, `isColdSource`.
-    pub affordances: Vec<String>,
-    /// Properties that hold now, by their AI2-THOR names: `isOpen`, `isToggled`, `isDirty`, …
-    pub states: Vec<String>,
-    /// Object types it can hold, if a receptacle.
-    pub accepts: Vec<String>,
-    /// Materials: `Metal`, `Food`, …
-    pub materials: Vec<String>,
-    /// Mass in kilograms; 0 for what is fixed.
-    pub mass_kg: f64,
 }
 
 /// A member of the team.
