@@ -118,6 +118,12 @@ impl Reading {
         let understood = decomposition.subtasks.iter().map(|subtask| subtask.text.clone()).collect();
         let question = match problems.first() {
             Some(problem) => format!("I cannot act on this yet: {problem}. What shall be done?"),
+            None if empty && !decomposition.assumptions.is_empty() => {
+                format!(
+                    "Nothing has to be done: {}. What shall be true in the end?",
+                    decomposition.assumptions.join("; ")
+                )
+            }
             None if empty => "I found nothing to do in this. What shall be true in the end?".to_owned(),
             None => "Is this what you mean?".to_owned(),
         };
@@ -163,13 +169,31 @@ fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Readi
     let mut parser = Parser::new(words, lexicon, scene);
     let mut clauses = parser.clauses();
     let passed_over = std::mem::take(&mut parser.passed_over);
+    let choices = std::mem::take(&mut parser.choices);
     share_objects(&mut clauses);
     let mut discourse = Discourse::new(lexicon, scene);
     let mut interpreter = Interpreter::new(&mut discourse, &clauses);
-    for index in 0..clauses.len() {
-        one_clause(&mut interpreter, index, &clauses, lexicon);
+    let mut index = 0;
+    while index < clauses.len() {
+        if clauses[index].condition {
+            let held = interpreter.condition(index, &clauses[index]);
+            if let (false, Some(next)) = (held, clauses.get(index + 1)) {
+                let text = format!("\"{}\" does not hold now", clauses[index].text);
+                interpreter
+                    .discourse
+                    .assume(format!("{text}, so nothing is done for \"{}\"", next.text), 1.0);
+                index += 1;
+            }
+        } else {
+            one_clause(&mut interpreter, index, &clauses, lexicon);
+        }
+        index += 1;
     }
+    interpreter.settle_bans();
     let facts = interpreter.facts;
+    for choice in choices {
+        discourse.assume(choice, 0.95);
+    }
     for word in passed_over {
         discourse.assume(format!("passed over \"{word}\""), 0.97);
     }
@@ -196,8 +220,8 @@ fn one_clause<'a>(
     }
     let before = Snapshot::take(interpreter);
     interpreter.clause(index, clause, clauses.get(index + 1));
-    let failed = interpreter.discourse.problems.len() > before.problems
-        || interpreter.facts.len() == before.facts.len() && !is_mere_step(clause);
+    let failed =
+        interpreter.discourse.problems.len() > before.problems || !interpreter.spoke && !is_mere_step(clause);
     let absent =
         interpreter.discourse.problems[before.problems..].iter().any(|p| p.starts_with("there is no "));
     // What was named and is not here is not to be replaced by what a situation would do.
@@ -216,7 +240,7 @@ fn one_clause<'a>(
         }
         literal.restore(interpreter);
     }
-    if failed && interpreter.facts.len() == before.facts.len() && !clause.negated && !is_mere_step(clause) {
+    if failed && !interpreter.spoke && !clause.negated && !is_mere_step(clause) {
         interpreter.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.4);
     }
 }
@@ -283,6 +307,13 @@ fn share_objects(clauses: &mut [Clause<'_>]) {
     for i in 0..clauses.len().saturating_sub(1) {
         let (front, back) = clauses.split_at_mut(i + 1);
         let (first, second) = (&mut front[i], &mut back[0]);
+        // "turn the light off if it is on"
+        if first.condition
+            && first.objects.iter().any(|phrase| matches!(phrase.head, syntax::Head::Pronoun { .. }))
+            && i == 0
+        {
+            first.objects.clone_from(&second.objects);
+        }
         let needs_object = first.verbs.iter().any(|verb| {
             matches!(
                 verb.act,
@@ -316,6 +347,8 @@ fn as_situation(
         verbs: Vec::new(),
         verb_text: String::new(),
         negated: false,
+        condition: false,
+        robots: Vec::new(),
         objects: Vec::new(),
         places: Vec::new(),
         complement: lexicon::Settings::new(),
@@ -341,6 +374,7 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
             Some(Stay { clause: fact.clause, entity: fact.entity, device })
         })
         .collect();
+    discourse.bind_names(&facts);
     let subtasks = Emitter::new(&mut discourse, facts, &stays).subtasks(clauses);
     let confidence = if subtasks.is_empty() { 0.0 } else { discourse.confidence };
     Reading {
