@@ -364,6 +364,13 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             self.discourse.entities[target].asked.extend(states);
             changed.push(target);
         }
+        for place in clause.places.iter().filter(|place| is_tool(place)) {
+            if matches!(verb.act, Act::Heat | Act::Cook) && verb.device.is_none() {
+                let text = &place.phrase.text;
+                self.discourse
+                    .assume(format!("\"{text}\" is not part of the goal: any source of heat will do"), 0.99);
+            }
+        }
         self.put_down_tools(verb);
         self.hold_what_is_with(clause, verb);
         let places = self.places_spoken_of(&clause.places);

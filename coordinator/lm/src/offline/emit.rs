@@ -88,7 +88,11 @@ impl<'e, 'a> Emitter<'e, 'a> {
                     index,
                     Subtask {
                         id,
-                        text: if clause.negated { format!("not {}", clause.text) } else { clause.text.clone() },
+                        text: if clause.negated {
+                            format!("not {}", clause.text)
+                        } else {
+                            clause.text.clone()
+                        },
                         goal,
                         after,
                         robots: clause.robots.clone(),

@@ -104,11 +104,13 @@ struct Reading {
     problems: Vec<String>,
     /// Readings that were not preferred, best first.
     others: Vec<Decomposition>,
+    /// Whether it only says where to go.
+    only_goes: bool,
 }
 
 impl Reading {
     fn answer(self, assume: bool) -> Answer {
-        let Self { decomposition, problems, others } = self;
+        let Self { decomposition, problems, others, only_goes } = self;
         let empty = decomposition.subtasks.is_empty();
         if !empty && (assume || decomposition.confidence >= THRESHOLD) {
             let mut decomposition = decomposition;
@@ -123,6 +125,9 @@ impl Reading {
                     "Nothing has to be done: {}. What shall be true in the end?",
                     decomposition.assumptions.join("; ")
                 )
+            }
+            None if empty && only_goes => {
+                "Going somewhere alone changes nothing that I can check. What shall be done there?".to_owned()
             }
             None if empty => "I found nothing to do in this. What shall be true in the end?".to_owned(),
             None => "Is this what you mean?".to_owned(),
@@ -142,6 +147,11 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         .unwrap_or(instruction.len());
     let mut tokens = text::tokens(&instruction[..cut]);
     let repairs = text::repair_spelling(&mut tokens, lexicon, scene);
+    let typed: Vec<(String, String)> = tokens
+        .iter()
+        .filter(|token| repairs.contains(&text::repair_note(token)))
+        .map(|token| (token.typed.clone(), token.text.clone()))
+        .collect();
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
     let mut reading = word_by_word(&words, lexicon, scene);
     let absent = reading.problems.iter().any(|problem| problem.starts_with("there is no "));
@@ -160,6 +170,11 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
     if cut < instruction.len() {
         reading.problems.push("the instruction is too long; only its beginning was read".to_owned());
         reading.decomposition.confidence *= 0.5;
+    }
+    for (typed, word) in &typed {
+        for problem in &mut reading.problems {
+            *problem = text::in_own_words(problem, word, typed);
+        }
     }
     reading.decomposition.assumptions.splice(0..0, repairs);
     reading
@@ -381,5 +396,7 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
         decomposition: Decomposition { subtasks, assumptions: discourse.assumptions, confidence },
         problems: discourse.problems,
         others: Vec::new(),
+        only_goes: !clauses.is_empty()
+            && clauses.iter().all(|clause| clause.verbs.iter().any(|verb| verb.act == Act::Go)),
     }
 }
