@@ -214,7 +214,7 @@ impl<'a> Parser<'a> {
             .iter()
             .map(String::as_str)
             .take(8)
-            .take_while(|word| ![".", ",", "then"].contains(word))
+            .take_while(|word| ![".", ",", "then", "if"].contains(word))
             .collect();
         let (form, particles, _) = candidates
             .iter()

@@ -88,7 +88,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             spoken = self.forbid(clause);
         } else if let Some(verb) = self.choose(clause) {
             spoken = match verb.act {
-                Act::Go => Spoken::default(),
+                Act::Go => self.go(clause, next),
                 Act::Keep => self.keep(clause),
                 Act::Use => self.use_tool(clause, next),
                 Act::Place | Act::Discard | Act::Store => self.place(clause, verb, next),

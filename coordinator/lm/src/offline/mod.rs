@@ -81,6 +81,8 @@ impl Offline {
             }
             read(&request.instruction, &lexicon, &scene)
         };
+        let mut reading = reading;
+        check_robots(&mut reading.decomposition, &request.robots);
         reading.answer(request.assume)
     }
 }
@@ -95,6 +97,23 @@ impl LanguageModel for Offline {
             return Err(LmError::Cancelled);
         }
         Ok(self.read(request))
+    }
+}
+
+/// Keeps the advice for robots that there are, by their own names.
+fn check_robots(decomposition: &mut Decomposition, team: &[crate::RobotView]) {
+    let squashed = |name: &str| lexicon::squash(name);
+    for subtask in &mut decomposition.subtasks {
+        for said in std::mem::take(&mut subtask.robots) {
+            match team.iter().find(|robot| squashed(&robot.name) == squashed(&said)) {
+                Some(robot) => subtask.robots.push(robot.name.clone()),
+                None if team.is_empty() => subtask.robots.push(said),
+                None => {
+                    let text = format!("there is no {said}: anyone may do \"{}\"", subtask.text);
+                    decomposition.assumptions.push(text);
+                }
+            }
+        }
     }
 }
 
@@ -122,7 +141,7 @@ impl Reading {
             Some(problem) => format!("I cannot act on this yet: {problem}. What shall be done?"),
             None if empty && !decomposition.assumptions.is_empty() => {
                 format!(
-                    "Nothing has to be done: {}. What shall be true in the end?",
+                    "I found nothing to do: {}. What shall be true in the end?",
                     decomposition.assumptions.join("; ")
                 )
             }
@@ -389,6 +408,7 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
             Some(Stay { clause: fact.clause, entity: fact.entity, device })
         })
         .collect();
+    discourse.note_what_is_so(&facts);
     discourse.bind_names(&facts);
     let subtasks = Emitter::new(&mut discourse, facts, &stays).subtasks(clauses);
     let confidence = if subtasks.is_empty() { 0.0 } else { discourse.confidence };

@@ -26,7 +26,7 @@ impl<'a> Interpreter<'_, 'a> {
             _ => Settings::new(),
         };
         if states.is_empty() || clause.objects.is_empty() {
-            let text = format!("\"not {}\" is not part of the goal: nobody watches over it", clause.text);
+            let text = format!("\"not {}\" cannot be put as a goal, and nobody watches over it", clause.text);
             self.discourse.assume(text, 0.95);
             return Spoken::default();
         }

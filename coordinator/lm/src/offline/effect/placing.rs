@@ -76,6 +76,28 @@ impl<'a> Interpreter<'_, 'a> {
         Spoken { objects, placed: !places.is_empty(), places }
     }
 
+    /// "go to the fridge and open it": going is no goal, but "it" is the fridge.
+    pub(super) fn go(&mut self, clause: &Clause<'a>, next: Option<&Clause<'a>>) -> Spoken {
+        let is_pronoun = |phrase: &Phrase| matches!(phrase.head, Head::Pronoun { .. });
+        let Some(wants) = next
+            .filter(|next| next.objects.iter().any(is_pronoun))
+            .and_then(|next| next.verbs.iter().find_map(|verb| verb.wants.as_deref()))
+            .filter(|wants| ["openable", "toggleable"].contains(wants))
+        else {
+            return Spoken::default();
+        };
+        let scene = self.discourse.scene;
+        let fits = |phrase: &Phrase| match &phrase.head {
+            Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, wants)),
+            Head::Named(_) => true,
+            _ => false,
+        };
+        let target = clause.places.iter().map(|place| &place.phrase).chain(&clause.objects).find(|p| fits(p));
+        let places =
+            target.map(|phrase| self.discourse.mention(phrase, &[], Some(wants))).unwrap_or_default();
+        Spoken { places, ..Spoken::default() }
+    }
+
     /// The goal, the movable receptacle it is reached in, and the places that say where things were.
     fn sort_places(&self, clause: &Clause<'a>) -> (Option<Place>, Option<Place>, Vec<Place>) {
         let scene = self.discourse.scene;

@@ -40,6 +40,30 @@ impl Discourse<'_> {
         }
     }
 
+    /// Says of what is to be put somewhere that it lies there already: no robot will move it.
+    pub fn note_what_is_so(&mut self, facts: &[Fact]) {
+        for fact in facts {
+            let Change::Inside(place) = fact.change else { continue };
+            let (thing, place) = (&self.entities[fact.entity], self.entities[place].kind());
+            let lies = self.scene.of_kind(thing.kind()).iter().any(|object| {
+                let named = matches!(&thing.which, Which::Named(name) if *name != object.name);
+                !named
+                    && object
+                        .parents
+                        .iter()
+                        .filter_map(|parent| self.scene.named(parent))
+                        .any(|parent| parent.kind == place)
+            });
+            let moved = facts.iter().any(|other| {
+                other.entity == fact.entity && matches!(other.change, Change::Inside(_)) && other != fact
+            });
+            if lies && !moved {
+                let text = format!("the {} is in or on the {place} already and may stay", thing.kind());
+                self.assume(text, 1.0);
+            }
+        }
+    }
+
     /// Binds an entity to an object that is not yet as wanted, if there is one; the first by name.
     fn bind(&mut self, entity: usize, wanted: &Settings) {
         let thing = &self.entities[entity];
