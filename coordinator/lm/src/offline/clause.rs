@@ -16,14 +16,20 @@ pub struct Parser<'a> {
     pub(super) scene: &'a Scene<'a>,
     /// Unknown modifiers that were let pass.
     pub passed_over: Vec<String>,
+    /// What was chosen where the words left a choice.
+    pub choices: Vec<String>,
     /// Whether the verb at hand still needs a place to put something.
     wants_place: bool,
+    /// Whether the clause at hand is negated: then "or" forbids both.
+    pub(super) negated: bool,
 }
 
 /// What opens a clause.
 struct Opening {
     link: Link,
     negated: bool,
+    condition: bool,
+    robots: Vec<String>,
     /// `before you …, …`: this clause comes after the next.
     after_next: bool,
     /// `… after you …`: this clause comes before the one said before it.
@@ -33,7 +39,16 @@ struct Opening {
 impl<'a> Parser<'a> {
     /// A parser at the start of the words.
     pub fn new(words: &'a [String], lexicon: &'a Lexicon, scene: &'a Scene<'a>) -> Self {
-        Self { words, position: 0, lexicon, scene, passed_over: Vec::new(), wants_place: false }
+        Self {
+            words,
+            position: 0,
+            lexicon,
+            scene,
+            passed_over: Vec::new(),
+            choices: Vec::new(),
+            wants_place: false,
+            negated: false,
+        }
     }
 
     /// All clauses, in the order in which they are to be done.
@@ -96,8 +111,14 @@ impl<'a> Parser<'a> {
 
     /// Passes over joins and politeness, and notes the order they state.
     fn opening(&mut self, first: bool) -> Opening {
-        let mut opening =
-            Opening { link: Link::And, negated: false, after_next: false, before_previous: false };
+        let mut opening = Opening {
+            link: Link::And,
+            negated: false,
+            condition: false,
+            robots: Vec::new(),
+            after_next: false,
+            before_previous: false,
+        };
         while let Some(word) = self.peek() {
             let rest = self.rest();
             if let Some(length) = self.lexicon.longest_small("sequence", &rest)
@@ -119,7 +140,17 @@ impl<'a> Parser<'a> {
                 self.position += length;
                 continue;
             }
+            if let Some(robot) = self.robot() {
+                opening.robots.push(robot);
+                continue;
+            }
             match word {
+                "should" | "shall" | "must" | "can" | "has" | "will" if !opening.robots.is_empty() => {}
+                "have" | "let" if self.ahead(1).robot().is_some() => {}
+                "if" => {
+                    opening.condition = true;
+                    opening.before_previous = !first;
+                }
                 "," | "." | "and" | "so" | "but" | "plus" | "first" | "firstly" | "to" | "you" | "i"
                 | "we" => {}
                 "before" => {
@@ -183,7 +214,7 @@ impl<'a> Parser<'a> {
             .iter()
             .map(String::as_str)
             .take(8)
-            .take_while(|word| ![".", ",", "then"].contains(word))
+            .take_while(|word| ![".", ",", "then", "if"].contains(word))
             .collect();
         let (form, particles, _) = candidates
             .iter()
@@ -224,7 +255,10 @@ impl<'a> Parser<'a> {
             return true;
         }
         let rest = self.rest();
-        if self.lexicon.longest_small("sequence", &rest).is_some()
+        let negation = word == "never" || rest.starts_with(&["do", "not"]);
+        if negation
+            || self.robot_opens()
+            || self.lexicon.longest_small("sequence", &rest).is_some()
             || self.lexicon.longest_small("parallel", &rest).is_some()
         {
             return true;
@@ -274,6 +308,8 @@ impl<'a> Parser<'a> {
             verbs: Vec::new(),
             verb_text: String::new(),
             negated: opening.negated,
+            condition: opening.condition,
+            robots: opening.robots.clone(),
             objects: Vec::new(),
             places: Vec::new(),
             complement: Settings::new(),
@@ -302,6 +338,7 @@ impl<'a> Parser<'a> {
             self.particle_alone(&mut clause, previous);
         }
         self.wants_place = clause.verbs.iter().any(|verb| verb.act == Act::Place);
+        self.negated = clause.negated;
         self.arguments(&mut clause, start);
         self.wants_place = false;
         // "the box on the sofa and the bowl in the box": the verb is understood.
@@ -324,6 +361,9 @@ impl<'a> Parser<'a> {
                 return;
             }
             let before = self.position;
+            if self.contrast() || self.neither(clause) || self.choice(clause) || self.there(clause) {
+                continue;
+            }
             if self.particle(clause) || self.complement(clause) || self.place(clause) {
                 continue;
             }
@@ -363,7 +403,12 @@ impl<'a> Parser<'a> {
     fn is_boundary(&self, clause: &Clause<'a>, start: usize) -> bool {
         let Some(word) = self.peek() else { return true };
         let Some(next) = self.word_at(1) else { return word == "." };
+        if self.ahead(0).contrast() {
+            return false;
+        }
         match word {
+            "do" if next == "not" => self.position > start,
+            "never" | "if" => self.position > start,
             "." => true,
             "," | "and" => {
                 let mut ahead = self.ahead(1);
@@ -407,7 +452,9 @@ impl<'a> Parser<'a> {
             lexicon: self.lexicon,
             scene: self.scene,
             passed_over: Vec::new(),
+            choices: Vec::new(),
             wants_place: self.wants_place,
+            negated: self.negated,
         }
     }
 
@@ -440,3 +487,4 @@ impl<'a> Parser<'a> {
 }
 
 mod argument;
+mod choice;

@@ -39,6 +39,10 @@ pub struct Interpreter<'d, 'a> {
     /// Whether some clause switches something on.
     switches_on: bool,
     clause: usize,
+    /// What must not become so.
+    bans: Vec<forbid::Ban>,
+    /// Whether the clause at hand said anything, new or not.
+    pub spoke: bool,
 }
 
 impl<'d, 'a> Interpreter<'d, 'a> {
@@ -59,7 +63,15 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         let switches_on = clauses
             .iter()
             .any(|clause| clause.verbs.iter().any(|verb| verb.set.get("isToggled") == Some(&super::yes())));
-        Self { discourse, facts: Vec::new(), lamp_wanted, switches_on, clause: 0 }
+        Self {
+            discourse,
+            facts: Vec::new(),
+            lamp_wanted,
+            switches_on,
+            clause: 0,
+            bans: Vec::new(),
+            spoke: false,
+        }
     }
 
     /// The clause that facts are added for from now on.
@@ -70,13 +82,13 @@ impl<'d, 'a> Interpreter<'d, 'a> {
     /// Adds the facts of a clause. `next` is the verb of the one after it.
     pub fn clause(&mut self, index: usize, clause: &Clause<'a>, next: Option<&Clause<'a>>) {
         self.clause = index;
+        self.spoke = false;
         let mut spoken = Spoken::default();
         if clause.negated {
-            self.discourse
-                .assume(format!("\"{}\" is kept to by doing nothing of the kind", clause.text), 0.95);
+            spoken = self.forbid(clause);
         } else if let Some(verb) = self.choose(clause) {
             spoken = match verb.act {
-                Act::Go => Spoken::default(),
+                Act::Go => self.go(clause, next),
                 Act::Keep => self.keep(clause),
                 Act::Use => self.use_tool(clause, next),
                 Act::Place | Act::Discard | Act::Store => self.place(clause, verb, next),
@@ -135,6 +147,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
     }
 
     pub(super) fn add(&mut self, entity: usize, change: Change) {
+        self.spoke = true;
         // What is so already is not said twice; what was changed in between is.
         let last = self
             .facts
@@ -351,6 +364,13 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             self.discourse.entities[target].asked.extend(states);
             changed.push(target);
         }
+        for place in clause.places.iter().filter(|place| is_tool(place)) {
+            if matches!(verb.act, Act::Heat | Act::Cook) && verb.device.is_none() {
+                let text = &place.phrase.text;
+                self.discourse
+                    .assume(format!("\"{text}\" is not part of the goal: any source of heat will do"), 0.99);
+            }
+        }
         self.put_down_tools(verb);
         self.hold_what_is_with(clause, verb);
         let places = self.places_spoken_of(&clause.places);
@@ -463,4 +483,5 @@ fn about_the_same(a: &Change, b: &Change) -> bool {
     }
 }
 
+mod forbid;
 mod placing;

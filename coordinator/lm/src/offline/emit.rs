@@ -86,7 +86,18 @@ impl<'e, 'a> Emitter<'e, 'a> {
                 numbers.entry(index).or_default().push(id.clone());
                 found.push((
                     index,
-                    Subtask { id, text: clause.text.clone(), goal, after, robots: Vec::new(), lasting },
+                    Subtask {
+                        id,
+                        text: if clause.negated {
+                            format!("not {}", clause.text)
+                        } else {
+                            clause.text.clone()
+                        },
+                        goal,
+                        after,
+                        robots: clause.robots.clone(),
+                        lasting,
+                    },
                 ));
             }
         }

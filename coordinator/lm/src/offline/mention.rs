@@ -67,6 +67,8 @@ pub struct Discourse<'a> {
     pub problems: Vec<String>,
     /// From 0 to 1.
     pub confidence: f64,
+    /// What is switched, and by what.
+    controls: Vec<(usize, usize)>,
 }
 
 impl<'a> Discourse<'a> {
@@ -80,6 +82,7 @@ impl<'a> Discourse<'a> {
             assumptions: Vec::new(),
             problems: Vec::new(),
             confidence: 1.0,
+            controls: Vec::new(),
         }
     }
 
@@ -442,4 +445,5 @@ fn names(noun: &Noun, entity: &Entity, scene: &Scene<'_>) -> bool {
 }
 
 mod fitting;
+mod naming;
 mod reference;

@@ -81,6 +81,8 @@ impl Offline {
             }
             read(&request.instruction, &lexicon, &scene)
         };
+        let mut reading = reading;
+        check_robots(&mut reading.decomposition, &request.robots);
         reading.answer(request.assume)
     }
 }
@@ -98,17 +100,36 @@ impl LanguageModel for Offline {
     }
 }
 
+/// Keeps the advice for robots that there are, by their own names.
+fn check_robots(decomposition: &mut Decomposition, team: &[crate::RobotView]) {
+    let squashed = |name: &str| lexicon::squash(name);
+    for subtask in &mut decomposition.subtasks {
+        for said in std::mem::take(&mut subtask.robots) {
+            match team.iter().find(|robot| squashed(&robot.name) == squashed(&said)) {
+                Some(robot) => subtask.robots.push(robot.name.clone()),
+                None if team.is_empty() => subtask.robots.push(said),
+                None => {
+                    let text = format!("there is no {said}: anyone may do \"{}\"", subtask.text);
+                    decomposition.assumptions.push(text);
+                }
+            }
+        }
+    }
+}
+
 /// A reading and what is wrong with it.
 struct Reading {
     decomposition: Decomposition,
     problems: Vec<String>,
     /// Readings that were not preferred, best first.
     others: Vec<Decomposition>,
+    /// Whether it only says where to go.
+    only_goes: bool,
 }
 
 impl Reading {
     fn answer(self, assume: bool) -> Answer {
-        let Self { decomposition, problems, others } = self;
+        let Self { decomposition, problems, others, only_goes } = self;
         let empty = decomposition.subtasks.is_empty();
         if !empty && (assume || decomposition.confidence >= THRESHOLD) {
             let mut decomposition = decomposition;
@@ -118,6 +139,15 @@ impl Reading {
         let understood = decomposition.subtasks.iter().map(|subtask| subtask.text.clone()).collect();
         let question = match problems.first() {
             Some(problem) => format!("I cannot act on this yet: {problem}. What shall be done?"),
+            None if empty && !decomposition.assumptions.is_empty() => {
+                format!(
+                    "I found nothing to do: {}. What shall be true in the end?",
+                    decomposition.assumptions.join("; ")
+                )
+            }
+            None if empty && only_goes => {
+                "Going somewhere alone changes nothing that I can check. What shall be done there?".to_owned()
+            }
             None if empty => "I found nothing to do in this. What shall be true in the end?".to_owned(),
             None => "Is this what you mean?".to_owned(),
         };
@@ -136,6 +166,11 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         .unwrap_or(instruction.len());
     let mut tokens = text::tokens(&instruction[..cut]);
     let repairs = text::repair_spelling(&mut tokens, lexicon, scene);
+    let typed: Vec<(String, String)> = tokens
+        .iter()
+        .filter(|token| repairs.contains(&text::repair_note(token)))
+        .map(|token| (token.typed.clone(), token.text.clone()))
+        .collect();
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
     let mut reading = word_by_word(&words, lexicon, scene);
     let absent = reading.problems.iter().any(|problem| problem.starts_with("there is no "));
@@ -155,6 +190,11 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         reading.problems.push("the instruction is too long; only its beginning was read".to_owned());
         reading.decomposition.confidence *= 0.5;
     }
+    for (typed, word) in &typed {
+        for problem in &mut reading.problems {
+            *problem = text::in_own_words(problem, word, typed);
+        }
+    }
     reading.decomposition.assumptions.splice(0..0, repairs);
     reading
 }
@@ -163,13 +203,31 @@ fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Readi
     let mut parser = Parser::new(words, lexicon, scene);
     let mut clauses = parser.clauses();
     let passed_over = std::mem::take(&mut parser.passed_over);
+    let choices = std::mem::take(&mut parser.choices);
     share_objects(&mut clauses);
     let mut discourse = Discourse::new(lexicon, scene);
     let mut interpreter = Interpreter::new(&mut discourse, &clauses);
-    for index in 0..clauses.len() {
-        one_clause(&mut interpreter, index, &clauses, lexicon);
+    let mut index = 0;
+    while index < clauses.len() {
+        if clauses[index].condition {
+            let held = interpreter.condition(index, &clauses[index]);
+            if let (false, Some(next)) = (held, clauses.get(index + 1)) {
+                let text = format!("\"{}\" does not hold now", clauses[index].text);
+                interpreter
+                    .discourse
+                    .assume(format!("{text}, so nothing is done for \"{}\"", next.text), 1.0);
+                index += 1;
+            }
+        } else {
+            one_clause(&mut interpreter, index, &clauses, lexicon);
+        }
+        index += 1;
     }
+    interpreter.settle_bans();
     let facts = interpreter.facts;
+    for choice in choices {
+        discourse.assume(choice, 0.95);
+    }
     for word in passed_over {
         discourse.assume(format!("passed over \"{word}\""), 0.97);
     }
@@ -196,8 +254,8 @@ fn one_clause<'a>(
     }
     let before = Snapshot::take(interpreter);
     interpreter.clause(index, clause, clauses.get(index + 1));
-    let failed = interpreter.discourse.problems.len() > before.problems
-        || interpreter.facts.len() == before.facts.len() && !is_mere_step(clause);
+    let failed =
+        interpreter.discourse.problems.len() > before.problems || !interpreter.spoke && !is_mere_step(clause);
     let absent =
         interpreter.discourse.problems[before.problems..].iter().any(|p| p.starts_with("there is no "));
     // What was named and is not here is not to be replaced by what a situation would do.
@@ -216,7 +274,7 @@ fn one_clause<'a>(
         }
         literal.restore(interpreter);
     }
-    if failed && interpreter.facts.len() == before.facts.len() && !clause.negated && !is_mere_step(clause) {
+    if failed && !interpreter.spoke && !clause.negated && !is_mere_step(clause) {
         interpreter.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.4);
     }
 }
@@ -283,6 +341,13 @@ fn share_objects(clauses: &mut [Clause<'_>]) {
     for i in 0..clauses.len().saturating_sub(1) {
         let (front, back) = clauses.split_at_mut(i + 1);
         let (first, second) = (&mut front[i], &mut back[0]);
+        // "turn the light off if it is on"
+        if first.condition
+            && first.objects.iter().any(|phrase| matches!(phrase.head, syntax::Head::Pronoun { .. }))
+            && i == 0
+        {
+            first.objects.clone_from(&second.objects);
+        }
         let needs_object = first.verbs.iter().any(|verb| {
             matches!(
                 verb.act,
@@ -316,6 +381,8 @@ fn as_situation(
         verbs: Vec::new(),
         verb_text: String::new(),
         negated: false,
+        condition: false,
+        robots: Vec::new(),
         objects: Vec::new(),
         places: Vec::new(),
         complement: lexicon::Settings::new(),
@@ -341,11 +408,15 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
             Some(Stay { clause: fact.clause, entity: fact.entity, device })
         })
         .collect();
+    discourse.note_what_is_so(&facts);
+    discourse.bind_names(&facts);
     let subtasks = Emitter::new(&mut discourse, facts, &stays).subtasks(clauses);
     let confidence = if subtasks.is_empty() { 0.0 } else { discourse.confidence };
     Reading {
         decomposition: Decomposition { subtasks, assumptions: discourse.assumptions, confidence },
         problems: discourse.problems,
         others: Vec::new(),
+        only_goes: !clauses.is_empty()
+            && clauses.iter().all(|clause| clause.verbs.iter().any(|verb| verb.act == Act::Go)),
     }
 }

@@ -389,7 +389,14 @@ impl Parser<'_> {
                 self.position = start;
                 return found;
             }
+            let or = !self.negated && self.words[start..self.position].iter().any(|word| word == "or");
             match self.phrase(depth) {
+                Some(phrase) if or => {
+                    if let Some(first) = found.pop() {
+                        let chosen = self.chosen(first, phrase);
+                        found.push(chosen);
+                    }
+                }
                 Some(phrase) => found.push(phrase),
                 None => {
                     self.position = start;
@@ -404,7 +411,7 @@ impl Parser<'_> {
         let start = self.position;
         while let Some(word) = self.peek() {
             match word {
-                "," | "and" | "plus" | "or" => self.position += 1,
+                "," | "and" | "plus" | "or" | "nor" => self.position += 1,
                 "as" if self.rest().starts_with(&["as", "well", "as"]) => self.position += 3,
                 "along" | "together" if self.word_at(1) == Some("with") => self.position += 2,
                 "then" | "also" if self.position > start && !self.clause_starts_here(false) => {

@@ -113,13 +113,21 @@ pub struct Place {
     pub under: bool,
     /// Whether it is `at`: there, if nothing else is said.
     pub there: bool,
+    /// Whether it is `on top of`: not within.
+    pub on_top: bool,
 }
 
 impl Place {
     /// A place by its preposition.
     pub fn new(relation: Relation, preposition: &str, phrase: Phrase) -> Self {
         let under = matches!(preposition, "under" | "underneath" | "below" | "beneath");
-        Self { relation, phrase, under, there: preposition == "at" }
+        Self {
+            relation,
+            phrase,
+            under,
+            there: preposition == "at",
+            on_top: matches!(preposition, "on top of" | "atop" | "to the top of"),
+        }
     }
 }
 
@@ -145,6 +153,10 @@ pub struct Clause<'a> {
     pub verb_text: String,
     /// `do not`, `without`
     pub negated: bool,
+    /// `if`: what must hold now for the next clause to count.
+    pub condition: bool,
+    /// Who should do it: `robot2 should ...`.
+    pub robots: Vec<String>,
     /// What it is done to.
     pub objects: Vec<Phrase>,
     /// Where, with what.

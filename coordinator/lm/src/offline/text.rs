@@ -69,6 +69,18 @@ pub fn tokens(instruction: &str) -> Vec<Token> {
 /// Returns what was repaired.
 pub fn repair_spelling(tokens: &mut [Token], lexicon: &Lexicon, scene: &Scene) -> Vec<String> {
     let mut repairs = Vec::new();
+    let is_word = |token: &&Token| token.text.chars().any(char::is_alphabetic);
+    let strange = |token: &&Token| {
+        is_word(token)
+            && !is_known(&token.text, lexicon, scene)
+            && lexicon.longest_small("polite", &[&token.text]).is_none()
+    };
+    // Where most words are strange the sentence is not misspelt but in another language.
+    let unknown = tokens.iter().filter(strange).count();
+    let plain = tokens.iter().filter(is_word).filter(|t| !super::syntax::is_function_word(&t.text)).count();
+    if unknown > 2 && 2 * unknown > plain {
+        return repairs;
+    }
     for token in tokens {
         let word = token.text.clone();
         if word.len() < 4 || !word.chars().all(|c| c.is_ascii_alphabetic()) || is_known(&word, lexicon, scene)
@@ -76,18 +88,40 @@ pub fn repair_spelling(tokens: &mut [Token], lexicon: &Lexicon, scene: &Scene) -
             continue;
         }
         let in_scene = nearest(&word, scene.vocabulary());
-        let in_lexicon = nearest(&word, lexicon.vocabulary().iter().map(String::as_str));
+        let misspellable = |known: &&str| !lexicon.is_small("real", &[known]);
+        let in_lexicon = nearest(&word, lexicon.vocabulary().iter().map(String::as_str).filter(misspellable));
         let best = match (in_scene, in_lexicon) {
             (Some(scene), Some(lexicon)) if scene.1 <= lexicon.1 => Some(scene),
             (_, Some(lexicon)) => Some(lexicon),
             (scene, None) => scene,
         };
         if let Some((repaired, _)) = best {
-            repairs.push(format!("read \"{}\" as \"{repaired}\"", token.typed));
             token.text = repaired;
+            repairs.push(repair_note(token));
         }
     }
     repairs
+}
+
+/// How a repair is told.
+pub fn repair_note(token: &Token) -> String {
+    format!("read \"{}\" as \"{}\"", token.typed, token.text)
+}
+
+/// A text with a repaired word as it was typed, for questions.
+pub fn in_own_words(text: &str, repaired: &str, typed: &str) -> String {
+    let is_letter = |c: char| c.is_alphanumeric();
+    let mut result = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find(repaired) {
+        let (front, behind) = (&rest[..at], &rest[at + repaired.len()..]);
+        let whole = !front.chars().next_back().or(result.chars().next_back()).is_some_and(is_letter)
+            && !behind.chars().next().is_some_and(is_letter);
+        result.push_str(front);
+        result.push_str(if whole { typed } else { repaired });
+        rest = behind;
+    }
+    result + rest
 }
 
 /// Whether a word needs no repair.

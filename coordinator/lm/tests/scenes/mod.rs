@@ -87,6 +87,7 @@ pub fn bedroom() -> Vec<ObjectView> {
     ]
 }
 
+#[allow(dead_code, reason = "not every test draws them")]
 /// Adds things that no sentence of the tests speaks of, drawn by the seed.
 pub fn with_distractors(mut objects: Vec<ObjectView>, seed: u64) -> Vec<ObjectView> {
     const KINDS: [(&str, &str); 16] = [

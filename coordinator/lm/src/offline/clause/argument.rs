@@ -151,7 +151,11 @@ impl<'a> Parser<'a> {
             // spoken of before: "put the tomato in".
             self.position = start + length;
             let ends = self.peek().is_none_or(|word| [".", ",", "and"].contains(&word));
-            if ends && self.wants_place && clause.places.is_empty() && &self.words[start] == "in" {
+            if ends
+                && self.wants_place
+                && clause.places.is_empty()
+                && matches!(self.words[start].as_str(), "in" | "inside")
+            {
                 let it = Phrase::bare(Head::Pronoun { plural: false }, "it");
                 clause.places.push(Place::new(Relation::In, "in", it));
             }
@@ -169,7 +173,8 @@ impl<'a> Parser<'a> {
         if let (false, Some(object)) = (phrase.except.is_empty(), clause.objects.last_mut()) {
             object.except.append(&mut phrase.except);
         }
-        clause.places.push(Place::new(relation, &self.words[start], phrase));
+        let said = self.text_between(start, start + length);
+        clause.places.push(Place::new(relation, &said, phrase));
         self.more_places(clause, relation);
         true
     }

@@ -2,7 +2,7 @@
 
 use super::super::lexicon::{Act, Verb};
 use super::super::mention::Spoken;
-use super::super::syntax::{Clause, Head, Place, Relation};
+use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
 use super::{Change, Interpreter};
 
 impl<'a> Interpreter<'_, 'a> {
@@ -34,9 +34,15 @@ impl<'a> Interpreter<'_, 'a> {
         }
         let objects = self.objects(clause, &at, Some("pickupable"));
         let goes_on = next.is_some_and(|next| {
-            next.verbs
-                .iter()
-                .any(|verb| matches!(verb.act, Act::Place | Act::Store | Act::Discard | Act::Set))
+            let again = |phrase: &Phrase| {
+                matches!(phrase.head, Head::Pronoun { .. } | Head::Slices | Head::Everything)
+                    || clause.objects.iter().any(|mine| mine.head == phrase.head)
+            };
+            (next.objects.is_empty() || next.objects.iter().any(again))
+                && next
+                    .verbs
+                    .iter()
+                    .any(|verb| matches!(verb.act, Act::Place | Act::Store | Act::Discard | Act::Set))
         });
         let homes: Vec<String> = match verb.act {
             Act::Discard => vec!["GarbageCan".to_owned()],
@@ -68,6 +74,28 @@ impl<'a> Interpreter<'_, 'a> {
             }
         }
         Spoken { objects, placed: !places.is_empty(), places }
+    }
+
+    /// "go to the fridge and open it": going is no goal, but "it" is the fridge.
+    pub(super) fn go(&mut self, clause: &Clause<'a>, next: Option<&Clause<'a>>) -> Spoken {
+        let is_pronoun = |phrase: &Phrase| matches!(phrase.head, Head::Pronoun { .. });
+        let Some(wants) = next
+            .filter(|next| next.objects.iter().any(is_pronoun))
+            .and_then(|next| next.verbs.iter().find_map(|verb| verb.wants.as_deref()))
+            .filter(|wants| ["openable", "toggleable"].contains(wants))
+        else {
+            return Spoken::default();
+        };
+        let scene = self.discourse.scene;
+        let fits = |phrase: &Phrase| match &phrase.head {
+            Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, wants)),
+            Head::Named(_) => true,
+            _ => false,
+        };
+        let target = clause.places.iter().map(|place| &place.phrase).chain(&clause.objects).find(|p| fits(p));
+        let places =
+            target.map(|phrase| self.discourse.mention(phrase, &[], Some(wants))).unwrap_or_default();
+        Spoken { places, ..Spoken::default() }
     }
 
     /// The goal, the movable receptacle it is reached in, and the places that say where things were.
@@ -119,8 +147,16 @@ impl<'a> Interpreter<'_, 'a> {
 
     /// The objects end in the place.
     pub(super) fn put(&mut self, clause: &Clause<'a>, at: &[Place], goal: &Place) -> Spoken {
-        let objects = self.objects(clause, at, Some("pickupable"));
+        let mut objects = self.objects(clause, at, Some("pickupable"));
         let places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
+        self.leave_what_does_not_fit(clause, &mut objects, &places);
+        if let (true, Some(&place)) = (goal.on_top, places.first()) {
+            let kind = self.discourse.entities[place].kind().to_owned();
+            if self.discourse.scene.affords(&kind, "openable") {
+                let text = format!("nothing is known to stand on top of the {kind}, only within it");
+                self.discourse.problem(text, 0.45);
+            }
+        }
         self.add_asked(&places);
         if let Some(&place) = places.first() {
             for &entity in &objects {
@@ -130,6 +166,25 @@ impl<'a> Interpreter<'_, 'a> {
             }
         }
         Spoken { objects, placed: !places.is_empty(), places }
+    }
+
+    /// "everything in the fridge": what the fridge takes.
+    fn leave_what_does_not_fit(&mut self, clause: &Clause<'a>, objects: &mut Vec<usize>, places: &[usize]) {
+        let everything = |phrase: &Phrase| phrase.head == Head::Everything;
+        let Some(&place) = places.first().filter(|_| clause.objects.iter().all(everything)) else { return };
+        let scene = self.discourse.scene;
+        let entities = &self.discourse.entities;
+        let home = entities[place].kind().to_owned();
+        let left: Vec<usize> =
+            objects.iter().copied().filter(|&e| !scene.accepts(&home, entities[e].kind())).collect();
+        if left.is_empty() || left.len() == objects.len() {
+            return;
+        }
+        let mut names: Vec<&str> = left.iter().map(|&e| entities[e].kind()).collect();
+        names.dedup();
+        let text = format!("the {home} takes no {}: left where they are", names.join(", "));
+        objects.retain(|entity| !left.contains(entity));
+        self.discourse.assume(text, 0.97);
     }
 
     /// "a spoon in a cup on the table": the spoon in the cup, and the cup on the table.

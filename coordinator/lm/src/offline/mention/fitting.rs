@@ -20,10 +20,22 @@ impl Discourse<'_> {
     pub fn control(&mut self, entity: usize, control: String, on: bool) -> usize {
         let text = self.entities[entity].text.clone();
         self.assume(format!("\"{text}\" is switched by the {control}"), 0.98);
+        if let Some((_, known)) = self.controls.iter().find(|(switched, _)| *switched == entity) {
+            return *known;
+        }
+        // "two burners" have two knobs; "the sink" and "the faucet" have one.
+        let (kind, which) = (self.entities[entity].kind(), &self.entities[entity].which);
+        let alike = |e: &super::Entity| e.kind() == kind && e.text == text && *which == e.which;
+        let one_of_several = self.entities.iter().filter(|e| alike(e)).count() > 1;
+        let taken = |e: usize| {
+            self.controls.iter().any(|(other, known)| *known == e && self.entities[*other].kind() == kind)
+        };
+        let known = (0..self.entities.len()).find(|&e| self.entities[e].kind() == control && !taken(e));
         let many = self.scene.of_kind(&control).len() > 1;
-        let which = if on || !many { Which::Any } else { Which::All };
-        let known = self.entities.iter().position(|e| e.kind() == control);
-        known.unwrap_or_else(|| self.add(vec![control], which, &text))
+        let which = if on || !many || one_of_several { Which::Any } else { Which::All };
+        let found = known.unwrap_or_else(|| self.add(vec![control], which, &text));
+        self.controls.push((entity, found));
+        found
     }
 
     /// Lets the receptacle and the thing decide what each other is: the best pair of types that go together.

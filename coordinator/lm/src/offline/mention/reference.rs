@@ -25,7 +25,9 @@ impl Discourse<'_> {
             BTreeSet::new()
         };
         if places.is_empty() && !phrase.other {
-            self.assume(format!("\"{}\" means every single thing that can be carried", phrase.text), 0.45);
+            // Who names exceptions has thought of everything.
+            let factor = if except.is_empty() { 0.45 } else { 0.7 };
+            self.assume(format!("\"{}\" means every single thing that can be carried", phrase.text), factor);
         }
         let chosen: Vec<(String, String)> = self
             .scene
