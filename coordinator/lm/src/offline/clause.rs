@@ -341,6 +341,9 @@ impl<'a> Parser<'a> {
         self.negated = clause.negated;
         self.arguments(&mut clause, start);
         self.wants_place = false;
+        if self.words[start..self.position].iter().any(|word| word == "no") {
+            clause.deny();
+        }
         // "the box on the sofa and the bowl in the box": the verb is understood.
         if clause.verbs.is_empty()
             && clause.unknown.is_empty()
