@@ -341,7 +341,8 @@ impl<'a> Parser<'a> {
         self.negated = clause.negated;
         self.arguments(&mut clause, start);
         self.wants_place = false;
-        if self.words[start..self.position].iter().any(|word| word == "no") {
+        let no_thing = |&at: &usize| self.words[at] == "no" && self.longest_noun_at(at + 1).is_some();
+        if (start..self.position.min(self.words.len())).any(|at| no_thing(&at)) {
             clause.deny();
         }
         // "the box on the sofa and the bowl in the box": the verb is understood.
