@@ -107,6 +107,16 @@ fn so_many_means_so_many_different_ones() {
         json!([{"object": "Cabinet_2", "is": {"isOpen": true}}, {"object": "Cabinet_3", "is": {"isOpen": true}}]),
     );
     check(
+        "open a cabinet and open another cabinet",
+        large_kitchen(),
+        json!([{"object": "Cabinet_2", "is": {"isOpen": true}}, {"object": "Cabinet_3", "is": {"isOpen": true}}]),
+    );
+    check(
+        "make sure no cabinet is open",
+        large_kitchen(),
+        json!([{"object": "Cabinet", "all": true, "is": {"isOpen": false}}]),
+    );
+    check(
         "light both stove burners",
         large_kitchen(),
         json!([

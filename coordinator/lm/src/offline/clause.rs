@@ -341,6 +341,10 @@ impl<'a> Parser<'a> {
         self.negated = clause.negated;
         self.arguments(&mut clause, start);
         self.wants_place = false;
+        let no_thing = |&at: &usize| self.words[at] == "no" && self.longest_noun_at(at + 1).is_some();
+        if (start..self.position.min(self.words.len())).any(|at| no_thing(&at)) {
+            clause.deny();
+        }
         // "the box on the sofa and the bowl in the box": the verb is understood.
         if clause.verbs.is_empty()
             && clause.unknown.is_empty()

@@ -173,6 +173,19 @@ pub struct Clause<'a> {
     pub words: Vec<String>,
 }
 
+impl Clause<'_> {
+    /// "make sure no drawer is open": every one is not; "open no drawer": do not.
+    pub fn deny(&mut self) {
+        self.negated |= self.complement.is_empty();
+        for value in self.complement.values_mut() {
+            *value = super::opposite(value);
+        }
+        for phrase in &mut self.objects {
+            phrase.quantity = Quantity::All;
+        }
+    }
+}
+
 /// Prepositions, the longer first.
 const PREPOSITIONS: [(&str, Relation); 82] = [
     ("to the left side of", Relation::Near),

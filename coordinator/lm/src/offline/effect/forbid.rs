@@ -3,7 +3,7 @@
 use super::super::lexicon::{Act, Settings};
 use super::super::mention::{Entity, Spoken, Which};
 use super::super::scene::is_in_state;
-use super::super::syntax::{Clause, Quantity};
+use super::super::syntax::{Clause, Head, Phrase, Quantity};
 use super::{Change, Fact, Interpreter};
 use crate::ObjectView;
 use lamma_domains::goal::PropertyValue;
@@ -28,7 +28,13 @@ impl<'a> Interpreter<'_, 'a> {
         if states.is_empty() || clause.objects.is_empty() {
             let text = format!("\"not {}\" cannot be put as a goal, and nobody watches over it", clause.text);
             self.discourse.assume(text, 0.95);
-            return Spoken::default();
+            // "… put it in the bowl" may follow.
+            let scene = self.discourse.scene;
+            let is_here = |phrase: &&Phrase| matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| scene.has(kind)));
+            let phrases: Vec<&Phrase> = clause.objects.iter().filter(is_here).collect();
+            let objects =
+                phrases.into_iter().flat_map(|phrase| self.discourse.mention(phrase, &[], None)).collect();
+            return Spoken { objects, ..Spoken::default() };
         }
         let known = self.discourse.entities.len();
         let wants = verb.and_then(|verb| verb.wants.as_deref());

@@ -11,7 +11,7 @@ use super::{Discourse, Which};
 impl Discourse<'_> {
     /// Binds what the goal's separate entries could not tell apart.
     pub fn bind_names(&mut self, facts: &[Fact]) {
-        let mut groups: BTreeMap<(usize, String), BTreeSet<usize>> = BTreeMap::new();
+        let mut groups: BTreeMap<(String, String), BTreeSet<usize>> = BTreeMap::new();
         let mut wanted: BTreeMap<usize, Settings> = BTreeMap::new();
         let mut undone: BTreeSet<usize> = BTreeSet::new();
         for (i, fact) in facts.iter().enumerate() {
@@ -31,7 +31,7 @@ impl Discourse<'_> {
                 }
             }
             let kind = self.entities[entity].kind().to_owned();
-            groups.entry((fact.clause, kind)).or_default().insert(entity);
+            groups.entry((format!("{:?}", fact.change), kind)).or_default().insert(entity);
         }
         let several = groups.into_values().filter(|group| group.len() > 1).flatten();
         let bound: BTreeSet<usize> = several.chain(undone).collect();
