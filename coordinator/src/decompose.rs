@@ -11,9 +11,7 @@ use lamma_domains::condition::condition as goal;
 use lamma_domains::goal::{Content, GoalEntry};
 use lamma_domains::view::views;
 use lamma_domains::world::WorldSetup;
-use lamma_lm::{
-    Answer, Clarification, Decomposition, LanguageModel, Request, RobotView, Subtask,
-};
+use lamma_lm::{Answer, Clarification, Decomposition, LanguageModel, Request, RobotView, Subtask};
 use lamma_pddl::ast::GroundAtom;
 
 use crate::understand::{GoalGroup, GoalItem, ScoreGoal, Subgoal, Understanding, Understood};

@@ -292,12 +292,17 @@ fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
     clause.verbs.is_empty() || weak && !clause.verb_text.contains(' ') && !places
 }
 
+/// Whether a clause can only mean going somewhere: "turn left" can, "turn on the lamp" cannot.
+fn only_goes(clause: &Clause<'_>) -> bool {
+    !clause.verbs.is_empty() && clause.verbs.iter().all(|verb| verb.act == Act::Go)
+}
+
 /// Whether a clause may well have no goal of its own: going somewhere, taking what is put down later.
 fn is_mere_step(clause: &Clause<'_>) -> bool {
     clause.negated
+        || only_goes(clause)
         || clause.verbs.iter().any(|verb| {
-            matches!(verb.act, Act::Go | Act::Use | Act::Hold)
-                || verb.act == Act::Place && clause.places.is_empty()
+            matches!(verb.act, Act::Use | Act::Hold) || verb.act == Act::Place && clause.places.is_empty()
         })
 }
 
@@ -416,7 +421,6 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
         decomposition: Decomposition { subtasks, assumptions: discourse.assumptions, confidence },
         problems: discourse.problems,
         others: Vec::new(),
-        only_goes: !clauses.is_empty()
-            && clauses.iter().all(|clause| clause.verbs.iter().any(|verb| verb.act == Act::Go)),
+        only_goes: !clauses.is_empty() && clauses.iter().all(only_goes),
     }
 }
