@@ -238,7 +238,12 @@ impl<'a> Parser<'a> {
             })
             .filter_map(|at| self.longest_noun_at(at))
             .collect();
-        nouns.is_empty() || nouns.iter().any(|(noun, _, _)| self.can_be(noun, wants))
+        // What is not here can be anything, unless the bare verb would put things there.
+        let puts =
+            |word| self.lexicon.verbs(word).iter().any(|(_, p, v)| p.is_empty() && v.act == Act::Place);
+        let open = !self.peek().is_some_and(puts);
+        nouns.is_empty()
+            || nouns.iter().any(|(noun, _, _)| self.can_be(noun, wants) || open && self.is_absent(noun))
     }
 
     fn can_be(&self, noun: &super::lexicon::Noun, wants: &str) -> bool {

@@ -287,6 +287,10 @@ impl Parser<'_> {
         noun.kinds.iter().any(|kind| self.scene.affords(kind, affordance))
     }
 
+    pub(super) fn is_absent(&self, noun: &Noun) -> bool {
+        !self.scene.kinds().any(|kind| noun.kinds.iter().any(|k| k == kind))
+    }
+
     fn is_slices(&self, word: &str) -> bool {
         inflect::singulars(word).iter().any(|s| self.lexicon.is_small("slices", &[s.as_str()]))
             || self.lexicon.is_small("slices", &[word])
