@@ -8,6 +8,7 @@ pub mod interpreter;
 mod lifted;
 pub mod partial_order;
 pub mod plan;
+mod sas;
 pub mod search;
 mod successor;
 pub mod task;
@@ -16,6 +17,7 @@ pub mod validate;
 pub use ground::{GroundError, GroundLimits, ground};
 pub use interpreter::{GroundAction, GroundCondition, GroundEffect, Interpreter, WorldState};
 pub use plan::{GroundAct, Literal, Plan};
+pub use sas::write_sas;
 pub use search::{
     Engine, GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, plan, plan_with,
     relaxed_plan_cost, solve,

@@ -7,7 +7,9 @@ use std::time::Duration;
 use lamma_pddl::ast::{Domain, Problem};
 use lamma_pddl::{Report, check_domain, check_problem, parse_domain, parse_problem};
 use lamma_planner::validate::CostKind;
-use lamma_planner::{Limits, Outcome, write_plan};
+use lamma_planner::{
+    Engine, GroundLimits, Limits, Outcome, SearchOptions, ground, solve, write_plan, write_sas,
+};
 
 use crate::cli::PlanArgs;
 use crate::commands::read_source;
@@ -49,6 +51,17 @@ pub fn warn(report: &Report) {
     }
 }
 
+/// `auto`, or an engine by name.
+fn engine(name: &str) -> Result<Engine, Failure> {
+    let known = || Engine::ALL.map(|(name, _)| name).join(", ");
+    match name {
+        "auto" => Ok(Engine::default()),
+        name => Engine::named(name).ok_or_else(|| {
+            Failure::bad_input(format!("no search is called {name:?}: use auto, {}", known()))
+        }),
+    }
+}
+
 fn cost_kind(problem: &Problem) -> CostKind {
     if problem.metric.is_some() { CostKind::Metric } else { CostKind::Unit }
 }
@@ -61,8 +74,14 @@ pub fn plan(args: &PlanArgs) -> Result<u8, Failure> {
         time: args.time_limit.map(Duration::from_secs_f64),
         memory_bytes: args.memory_limit.map(|mib| mib << 20),
     };
-    let outcome = lamma_planner::plan(&task.domain, &task.problem, &limits, &AtomicBool::new(false))
-        .map_err(Failure::bad_input)?;
+    let options = SearchOptions { engine: engine(&args.search)?, ..SearchOptions::default() };
+    let grounded =
+        ground(&task.domain, &task.problem, &GroundLimits::default()).map_err(Failure::bad_input)?;
+    if args.sas {
+        say(write_sas(&grounded).trim_end());
+        return Ok(exit::SUCCESS);
+    }
+    let outcome = solve(&grounded, &options, &limits, &AtomicBool::new(false));
     match outcome {
         Outcome::Found(plan) => {
             let verdict = lamma_planner::validate::validate(&task.domain, &task.problem, &plan.acts)
