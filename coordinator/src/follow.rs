@@ -1,11 +1,12 @@
 //! Following the robots: collecting their plans, and watching the team's plan being carried out.
 
-use lamma_planner::GroundAct;
+use lamma_pddl::ast::Condition;
+use lamma_planner::{GroundAct, WorldState};
 use lamma_protocol::message::{EventKind, Order, Package, PlanResult};
 use lamma_protocol::{AgentId, PackageId, StepIndex};
 
 use crate::allocate::Cut;
-use crate::combine::ground_act;
+use crate::combine::{ground_act, world_state};
 use crate::job::{CombineInput, CoordinatorJob};
 use crate::machine::Coordinator;
 use crate::phase::{Following, Phase, Round};
@@ -118,10 +119,8 @@ impl Coordinator {
     }
 
     fn start_combining(&mut self, round: Box<Round>) {
-        let goal = self.understanding.as_ref().map_or(lamma_pddl::ast::Condition::TRUE, |u| u.final_goal());
-        let ground = self.interpreter.ground_condition(&goal);
-        let reached = ground.is_ok_and(|g| self.interpreter.holds(&round.merger.state, &g));
-        if !reached {
+        let goal = self.final_goal();
+        if !self.reaches(&round.merger.state, &goal) {
             self.put_phase(Phase::Planning(round));
             return self.coarsen(OutcomeKind::GaveUp, "the sub-tasks undo each other's goals".into());
         }
@@ -133,6 +132,16 @@ impl Coordinator {
         };
         let job = self.spawn(CoordinatorJob::Combine(Box::new(input)));
         self.enter(Phase::Combining(job, round));
+    }
+
+    /// Everything that shall hold at the end.
+    fn final_goal(&self) -> Condition {
+        self.understanding.as_ref().map_or(Condition::TRUE, |u| u.final_goal())
+    }
+
+    fn reaches(&self, state: &WorldState, goal: &Condition) -> bool {
+        let ground = self.interpreter.ground_condition(goal);
+        ground.is_ok_and(|ground| self.interpreter.holds(state, &ground))
     }
 
     /// Members that have not answered for some package of the batch.
@@ -206,12 +215,7 @@ impl Coordinator {
     /// Every step is applied: is the goal reached?
     fn executed(&mut self) {
         let Some(facts) = self.view.state() else { return };
-        let goal = self.understanding.as_ref().map_or(lamma_pddl::ast::Condition::TRUE, |u| u.final_goal());
-        let state = crate::combine::world_state(&facts);
-        let reached = self
-            .interpreter
-            .ground_condition(&goal)
-            .is_ok_and(|ground| self.interpreter.holds(&state, &ground));
+        let reached = self.reaches(&world_state(&facts), &self.final_goal());
         if reached {
             return self.finish(OutcomeKind::Success, None);
         }

@@ -314,11 +314,6 @@ impl PartialOrder {
             .fold(0.0, f64::max)
     }
 
-    /// The positions of each agent's steps, in its own order.
-    pub fn steps_of(&self, agent: usize) -> impl Iterator<Item = usize> + '_ {
-        (0..self.steps.len()).filter(move |&i| self.steps[i].agent == agent)
-    }
-
     /// For each step: the other agents it waits for, and how many of their steps must be done.
     pub fn gates(&self) -> Vec<Vec<(usize, u32)>> {
         let mut count: Vec<u32> = Vec::new();
