@@ -9,7 +9,7 @@ use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder, literal_effe
 use lamma_protocol::message::{Act, Gate, Step};
 use lamma_protocol::{AgentId, StepIndex};
 
-use crate::allocate::PackageSpec;
+use crate::allocation::PackageSpec;
 use crate::merge::Merger;
 use crate::team::Team;
 
@@ -151,7 +151,8 @@ fn team_plan(team: &Team, order: &PartialOrder, merger: &Merger, packages: &[Pac
     let mut steps: Vec<Vec<Step>> = vec![Vec::new(); team.members.len()];
     let mut timeline = Vec::with_capacity(order.steps.len());
     for (i, step) in order.steps.iter().enumerate() {
-        let act = act_of(&step.action.act);
+        let ground = &step.action.act;
+        let act = Act::new(&ground.action, &ground.args);
         let gates = gates[i]
             .iter()
             .map(|&(agent, done)| Gate { agent: AgentId(agent as u16), done: StepIndex(done) });
@@ -167,10 +168,6 @@ fn team_plan(team: &Team, order: &PartialOrder, merger: &Merger, packages: &[Pac
     });
     let ends = ends.collect();
     TeamPlan { steps, timeline, ends, makespan: order.makespan() }
-}
-
-fn act_of(ground: &lamma_planner::GroundAct) -> Act {
-    Act { action: ground.action.to_string(), args: ground.args.iter().map(ToString::to_string).collect() }
 }
 
 /// The act as the planner knows it.

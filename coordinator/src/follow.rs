@@ -5,7 +5,7 @@ use lamma_planner::{GroundAct, WorldState};
 use lamma_protocol::message::{EventKind, Order, Package, PlanResult};
 use lamma_protocol::{AgentId, PackageId, StepIndex};
 
-use crate::allocate::Cut;
+use crate::allocation::Cut;
 use crate::combine::{ground_act, world_state};
 use crate::job::{CombineInput, CoordinatorJob};
 use crate::machine::Coordinator;

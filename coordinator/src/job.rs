@@ -7,7 +7,8 @@ use std::sync::atomic::AtomicBool;
 use lamma_pddl::ast::{Condition, GroundAtom};
 use lamma_planner::interpreter::Interpreter;
 
-use crate::allocate::{AllocateInput, Allocation, NoAllocation, PackageSpec, allocate};
+use crate::allocate::allocate;
+use crate::allocation::{AllocateInput, Allocation, NoAllocation, PackageSpec};
 use crate::combine::{TeamPlan, combine};
 use crate::merge::Merger;
 use crate::team::Team;

@@ -5,6 +5,7 @@
 //! [`combine`]. The state machine that calls on them is [`machine`].
 
 pub mod allocate;
+pub mod allocation;
 pub mod assign;
 pub mod bound;
 pub mod combine;

@@ -11,7 +11,7 @@ use lamma_planner::interpreter::Interpreter;
 use lamma_protocol::message::{Directive, Event, Message};
 use lamma_protocol::{AgentId, Epoch, Input, Machine, Output, Revision, Tick, Topic};
 
-use crate::allocate::{Allocation, Cut};
+use crate::allocation::{Allocation, Cut};
 use crate::combine::TeamPlan;
 use crate::job::{CoordinatorDone, CoordinatorJob};
 use crate::phase::Phase;

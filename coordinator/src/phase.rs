@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use lamma_protocol::message::Package;
 use lamma_protocol::{JobId, PackageId, StepIndex, Tick};
 
-use crate::allocate::Allocation;
+use crate::allocation::Allocation;
 use crate::combine::TeamPlan;
 use crate::merge::Merger;
 

@@ -7,7 +7,7 @@ use lamma_pddl::ast::{Condition, GroundAtom};
 use lamma_planner::Limits;
 use lamma_planner::Outcome;
 
-use crate::allocate::AllocateInput;
+use crate::allocation::AllocateInput;
 use crate::split::team_plan;
 
 /// What stands between the team and the goal: the skills nobody has and the obstacles the team knows of.

@@ -3,7 +3,7 @@
 use lamma_protocol::message::{Command, EventKind, Order, Report};
 use lamma_protocol::{AgentId, Epoch, JobId, Output, Revision, StepIndex};
 
-use crate::allocate::{AllocateInput, Allocation, NoAllocation};
+use crate::allocation::{AllocateInput, Allocation, NoAllocation};
 use crate::combine::{TeamPlan, world_state};
 use crate::job::{CoordinatorDone, CoordinatorJob};
 use crate::machine::Coordinator;

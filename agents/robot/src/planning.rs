@@ -52,14 +52,12 @@ impl RobotJob {
             Ok(Outcome::Unsolvable(reason)) => PlanResult::Infeasible(reason.to_string()),
             Ok(Outcome::GaveUp(limit)) => PlanResult::GaveUp(limit.to_string()),
             Ok(Outcome::Found(plan)) => match validate(&self.domain, &problem, &plan.acts) {
-                Ok(verdict) if verdict.is_valid() => PlanResult::Found(plan.acts.iter().map(act).collect()),
+                Ok(verdict) if verdict.is_valid() => {
+                    PlanResult::Found(plan.acts.iter().map(|a| Act::new(&a.action, &a.args)).collect())
+                }
                 Ok(invalid) => PlanResult::GaveUp(format!("the plan found is not valid: {invalid}")),
                 Err(error) => PlanResult::Malformed(error.to_string()),
             },
         }
     }
-}
-
-fn act(ground: &lamma_planner::GroundAct) -> Act {
-    Act { action: ground.action.to_string(), args: ground.args.iter().map(ToString::to_string).collect() }
 }

@@ -138,6 +138,16 @@ pub struct Act {
     pub args: Vec<String>,
 }
 
+impl Act {
+    /// The act of these names.
+    pub fn new<T: std::fmt::Display>(
+        action: impl std::fmt::Display,
+        args: impl IntoIterator<Item = T>,
+    ) -> Self {
+        Act { action: action.to_string(), args: args.into_iter().map(|a| a.to_string()).collect() }
+    }
+}
+
 impl std::fmt::Display for Act {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}", self.action)?;
