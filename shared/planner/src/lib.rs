@@ -6,6 +6,7 @@ pub mod heuristic;
 mod id_table;
 pub mod interpreter;
 mod lifted;
+mod numeric;
 pub mod partial_order;
 pub mod plan;
 mod sas;

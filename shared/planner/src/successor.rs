@@ -70,7 +70,18 @@ impl Successors {
 
     /// Adds to `out` every operator that applies in `state`.
     pub fn applicable(&self, task: &Task, state: &[u64], out: &mut Vec<OperatorId>) {
+        let first = out.len();
         self.visit(task, state, 0, out);
+        if task.has_numbers() {
+            let mut kept = first;
+            for at in first..out.len() {
+                if task.has_results(state, out[at]) {
+                    out.swap(kept, at);
+                    kept += 1;
+                }
+            }
+            out.truncate(kept);
+        }
     }
 
     fn visit(&self, task: &Task, state: &[u64], node: u32, out: &mut Vec<OperatorId>) {

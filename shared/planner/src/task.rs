@@ -6,6 +6,7 @@ use lamma_pddl::Name;
 use lamma_pddl::ast::GroundAtom;
 
 use crate::csr::Csr;
+use crate::numeric::{Numeric, NumericEffect};
 use crate::plan::{GroundAct, Literal, Plan};
 
 /// A variable having a value. The facts of a variable have consecutive numbers.
@@ -177,6 +178,9 @@ pub struct Task {
     pub impossible: Vec<String>,
     /// Whether operators have costs of their own.
     pub has_costs: bool,
+    /// What the search does otherwise than the task asks, for people: a metric it does not minimise.
+    pub warnings: Vec<String>,
+    pub(crate) numeric: Numeric,
     pub(crate) words: usize,
 }
 
@@ -218,6 +222,46 @@ impl Task {
     /// Whether an operator can be applied in a state.
     pub fn applicable(&self, state: &[u64], operator: OperatorId) -> bool {
         self.preconditions(operator).iter().all(|&fact| self.holds(state, fact))
+            && self.has_results(state, operator)
+    }
+
+    /// Whether all that an operator does to numbers has a result: an operator that would divide by zero, or
+    /// read a number without a value, does not apply.
+    #[inline]
+    pub(crate) fn has_results(&self, state: &[u64], operator: OperatorId) -> bool {
+        if !self.numeric.fallible.get(operator.index()).is_some_and(|&fallible| fallible) {
+            return true;
+        }
+        let mut numbers = self.numeric.of(state).to_vec();
+        self.numeric_effects(state, operator, &mut numbers)
+    }
+
+    /// Applies what an operator does to numbers; false where something of that has no result.
+    fn numeric_effects(&self, state: &[u64], operator: OperatorId, numbers: &mut [u64]) -> bool {
+        let before = self.numeric.of(state);
+        let happens = |effect: &&NumericEffect| {
+            let condition = self.effect_conditions.row(effect.condition as usize);
+            condition.iter().all(|&fact| self.holds(state, fact))
+        };
+        let mut defined = true;
+        for effect in self.numeric.effects_of(operator.index()).iter().filter(happens) {
+            let number = &mut numbers[effect.target as usize];
+            let operand = effect.value.value(before);
+            let result = NumericEffect::result(effect.op, f64::from_bits(*number), operand);
+            defined &= !result.is_nan();
+            *number = result.to_bits();
+        }
+        defined
+    }
+
+    /// Whether the task has numbers that change and are asked for.
+    pub fn has_numbers(&self) -> bool {
+        !self.numeric.initial.is_empty()
+    }
+
+    /// The words of a state that hold variables; numbers come after them.
+    pub(crate) fn packed_words(&self) -> usize {
+        self.numeric.base
     }
 
     /// Whether a state reaches the goal.
@@ -240,7 +284,10 @@ impl Task {
                 self.facts[effect.fact.index()].set(next);
             }
         }
-        if !self.axioms.is_empty() {
+        if self.has_numbers() {
+            self.numeric_effects(state, operator, &mut next[self.numeric.base..]);
+        }
+        if !self.axioms.is_empty() || !self.numeric.comparisons.is_empty() {
             self.evaluate_axioms(next);
         }
     }
@@ -250,6 +297,11 @@ impl Task {
     pub(crate) fn evaluate_axioms(&self, state: &mut [u64]) {
         for &(word, mask) in &self.derived_masks {
             state[word] &= !mask;
+        }
+        for (fact, comparison) in &self.numeric.comparisons {
+            if comparison.holds(&state[self.numeric.base..]) {
+                self.facts[fact.index()].set(state);
+            }
         }
         for layer in &self.axiom_layers {
             loop {

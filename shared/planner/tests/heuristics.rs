@@ -5,6 +5,7 @@ mod random;
 
 use std::collections::{BTreeMap, VecDeque};
 
+use lamma_pddl::ast::{Domain, Problem};
 use lamma_planner::heuristic::{Blind, Costs, Estimate, Heuristic, LandmarkCut, Relaxation};
 use lamma_planner::{GroundLimits, OperatorId, State, Task, ground};
 
@@ -72,9 +73,18 @@ fn hold_to_promises(name: &str, seed: u64, heuristic: &mut dyn Heuristic, space:
 
 #[test]
 fn heuristics_keep_their_promises() {
+    hold_all(0..2500, random::task);
+}
+
+#[test]
+fn heuristics_keep_their_promises_over_numbers() {
+    hold_all(0..1000, random::numeric_task);
+}
+
+fn hold_all(seeds: std::ops::Range<u64>, make: fn(u64) -> (Domain, Problem)) {
     let mut states = 0;
-    for seed in 0..2500 {
-        let (domain, problem) = random::task(seed);
+    for seed in seeds {
+        let (domain, problem) = make(seed);
         let task = ground(&domain, &problem, &GroundLimits::default()).expect("random tasks are well formed");
         if !task.impossible.is_empty() {
             continue;

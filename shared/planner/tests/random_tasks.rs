@@ -14,7 +14,7 @@ use lamma_planner::{
     Engine, GroundLimits, Limits, Outcome, SearchOptions, Unsolvable, Verdict, ground, hmax_unit, solve,
     validate,
 };
-use random::task;
+use random::{numeric_task, task};
 use support::{Executor, World};
 
 /// The length of a shortest plan, by breadth-first search over everything.
@@ -38,7 +38,11 @@ fn shortest(executor: &Executor<'_>) -> Option<usize> {
         })
         .collect();
     let start = executor.initial();
-    let mut seen: BTreeSet<BTreeSet<GroundAtom>> = BTreeSet::from([start.facts.clone()]);
+    let key = |world: &World| {
+        let numbers = world.values.values().map(|value| (value + 0.0).to_bits());
+        (world.facts.clone(), numbers.collect::<Vec<_>>())
+    };
+    let mut seen = BTreeSet::from([key(&start)]);
     let mut queue: VecDeque<(World, usize)> = VecDeque::from([(start, 0)]);
     while let Some((world, depth)) = queue.pop_front() {
         if executor.holds(&world, &executor.problem.goal, &Vec::new()) {
@@ -46,7 +50,7 @@ fn shortest(executor: &Executor<'_>) -> Option<usize> {
         }
         for (name, args) in &acts {
             if let Ok(next) = executor.apply(&world, name, args)
-                && seen.insert(next.facts.clone())
+                && seen.insert(key(&next))
             {
                 queue.push_back((next, depth + 1));
             }
@@ -57,9 +61,18 @@ fn shortest(executor: &Executor<'_>) -> Option<usize> {
 
 #[test]
 fn plans_exist_exactly_where_exhaustive_search_finds_them() {
+    compare(0..3000, task);
+}
+
+#[test]
+fn with_numbers_too_plans_exist_exactly_where_exhaustive_search_finds_them() {
+    compare(0..2500, numeric_task);
+}
+
+fn compare(seeds: std::ops::Range<u64>, make: fn(u64) -> (Domain, Problem)) {
     let (mut solvable, mut unsolvable, mut unreachable) = (0, 0, 0);
-    for seed in 0..3000 {
-        let (domain, problem) = task(seed);
+    for seed in seeds {
+        let (domain, problem) = make(seed);
         let executor = Executor { domain: &domain, problem: &problem };
         let expected = shortest(&executor);
         let task = ground(&domain, &problem, &GroundLimits::default())

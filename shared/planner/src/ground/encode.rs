@@ -4,17 +4,25 @@ use super::GroundError;
 use super::propositional::{Ground, GroundOperator, Lit, Stretch};
 use super::relation::Relation;
 use crate::lifted::Lifted;
+use crate::numeric::NumericEffect;
 use crate::task::{AtomText, Axiom, ConditionalEffect, Fact, FactId, Names, Operator, Task, Variable, Write};
+
+/// No plan is long enough to leave the range of doubles in steps smaller than this.
+const MAX_SAFE_GAIN: f64 = 1e200;
 
 /// Builds the task. `groups` are sets of atoms of which at most one ever holds; each becomes one variable.
 pub(crate) fn encode(
-    lifted: Lifted,
+    mut lifted: Lifted,
     relations: &[Relation],
     ground: Ground,
     groups: &[Vec<u32>],
 ) -> Result<Task, GroundError> {
     let mut encoder = Encoder {
-        task: Task { has_costs: lifted.has_costs, ..Task::default() },
+        task: Task {
+            has_costs: lifted.has_costs,
+            warnings: std::mem::take(&mut lifted.warnings),
+            ..Task::default()
+        },
         atoms: Vec::new(),
         ground: &ground,
     };
@@ -25,7 +33,8 @@ pub(crate) fn encode(
     }
     encoder.variables(groups);
     encoder.initial_state();
-    encoder.operators();
+    let numbers = encoder.numbers();
+    encoder.operators(&numbers);
     encoder.axioms()?;
     let goal = encoder.conditions(ground.goal);
     let clash = goal
@@ -85,6 +94,9 @@ impl Encoder<'_> {
                     }
                 },
             });
+        }
+        for (atom, _, text) in &ground.numbers.comparisons {
+            names.atoms[*atom as usize] = AtomText::Condition(text.clone());
         }
         self.task.names = names;
     }
@@ -155,6 +167,7 @@ impl Encoder<'_> {
             }
         }
         self.task.words = layout.words.max(1);
+        self.task.numeric.base = self.task.words;
         let mut masks = vec![0u64; self.task.words];
         for variable in &self.task.variables[self.task.primary_variables..] {
             masks[variable.word as usize] |= variable.mask << variable.shift;
@@ -216,7 +229,59 @@ impl Encoder<'_> {
         FactId(variable.first.0 + variable.size - 1)
     }
 
-    fn operators(&mut self) {
+    /// Numbers the numbers that matter, in the order of the ground task; the index of each of those.
+    fn numbers(&mut self) -> Vec<u32> {
+        let numbers = &self.ground.numbers;
+        let mut used = vec![false; numbers.initial.len()];
+        let mut mark = |number: u32| used[number as usize] = true;
+        let relevant = || {
+            let all = numbers.comparisons.iter();
+            all.filter(|(atom, ..)| self.ground.relevant[*atom as usize])
+        };
+        relevant().for_each(|(_, comparison, _)| comparison.for_each_variable(&mut mark));
+        for effect in &numbers.effects {
+            mark(effect.target);
+            effect.value.for_each_variable(&mut mark);
+        }
+        let mut index = vec![u32::MAX; used.len()];
+        for number in (0..used.len()).filter(|&number| used[number]) {
+            index[number] = self.task.numeric.initial.len() as u32;
+            self.task.numeric.initial.push(numbers.initial[number]);
+        }
+        let comparisons = relevant().map(|(atom, comparison, _)| {
+            (self.fact(Lit::new(*atom, true)), comparison.renumbered(&|number| index[number as usize]))
+        });
+        self.task.numeric.comparisons = comparisons.collect();
+        self.task.words += self.task.numeric.initial.len();
+        self.task.init.extend(self.task.numeric.initial.iter().map(|value| (value + 0.0).to_bits()));
+        index
+    }
+
+    /// An operator's effects on numbers.
+    fn numeric_effects(&mut self, operator: &GroundOperator, numbers: &[u32]) {
+        if self.task.numeric.initial.is_empty() {
+            return;
+        }
+        let mut fallible = false;
+        for effect in &self.ground.numbers.effects[operator.numeric.range()] {
+            let condition = self.conditions(effect.condition);
+            if self.contradictory(&condition) {
+                continue;
+            }
+            let row = self.task.effect_conditions.len() as u32;
+            self.task.effect_conditions.push_row(condition);
+            let target = numbers[effect.target as usize];
+            let value = effect.value.renumbered(&|number| numbers[number as usize]);
+            let effect = NumericEffect { condition: row, op: effect.op, target, value };
+            let defined = !self.task.numeric.initial[target as usize].is_nan();
+            fallible |= !(effect.gain().is_some_and(|gain| gain.abs() < MAX_SAFE_GAIN) && defined);
+            self.task.numeric.effects.push(effect);
+        }
+        self.task.numeric.effects.end_row();
+        self.task.numeric.fallible.push(fallible);
+    }
+
+    fn operators(&mut self, numbers: &[u32]) {
         let ground = self.ground;
         let scale = cost_scale(&ground.operators);
         for operator in &ground.operators {
@@ -238,6 +303,7 @@ impl Encoder<'_> {
                 self.task.conditional.push(ConditionalEffect { condition: row, fact });
             }
             self.task.conditional.end_row();
+            self.numeric_effects(operator, numbers);
             let writes = self.writes(&effects.plain);
             self.task.writes.push_row(writes);
             self.task.effects.push_row(effects.plain);

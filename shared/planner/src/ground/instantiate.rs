@@ -1,14 +1,12 @@
 //! The instances of the rules as propositional operators, effects and axioms.
 
-use lamma_pddl::ast::{ArithmeticOp, Comparison};
-
 use super::join::UNBOUND;
+use super::numbers::{GroundNumericEffect, InitialValues};
 use super::propositional::{AtomName, Ground, GroundEffect, GroundOperator, GroundRule, Lit, Stretch};
 use super::quantified::Expander;
 use super::reach::Reached;
 use super::{GroundError, GroundLimits};
-use crate::id_table::{IdTable, Slot, hash_words};
-use crate::lifted::{Body, Change, Expr, Head, Lifted, LiftedAtom, Role, Term};
+use crate::lifted::{Body, Change, Formula, Head, Lifted, LiftedAtom, Role, Schema, Term, describe};
 
 /// Turns the fixpoint into a propositional task.
 pub(crate) fn instantiate(
@@ -30,8 +28,15 @@ pub(crate) fn instantiate(
     Ok(builder.ground)
 }
 
-/// Conditional effects by action and by the row of the action's reached instance.
-type EffectsByRow = Vec<Vec<(u32, GroundEffect)>>;
+/// Effects of actions, by the row of the action's reached instance.
+type ByRow<T> = Vec<(u32, T)>;
+
+/// One action's conditional effects.
+#[derive(Clone, Default)]
+struct Conditional {
+    facts: ByRow<GroundEffect>,
+    numbers: ByRow<GroundNumericEffect>,
+}
 
 /// What a literal comes to.
 pub(super) enum Value {
@@ -52,10 +57,7 @@ pub(super) struct World<'a> {
     pub reached: &'a Reached,
     /// The number of each predicate's first atom.
     base: Vec<u32>,
-    /// Initial values: rows of function and arguments.
-    value_keys: Vec<Vec<u32>>,
-    values: Vec<f64>,
-    value_table: IdTable,
+    pub initial: InitialValues,
 }
 
 impl<'a> Builder<'a> {
@@ -72,14 +74,7 @@ impl<'a> Builder<'a> {
             }
         }
         ground.init = vec![false; ground.names.len()];
-        let mut world = World {
-            lifted,
-            reached,
-            base,
-            value_keys: Vec::new(),
-            values: Vec::new(),
-            value_table: IdTable::default(),
-        };
+        let world = World { lifted, reached, base, initial: InitialValues::new(lifted) };
         for (predicate, args) in &lifted.init {
             let Some(atom) = world.atom(*predicate, args) else { continue };
             if ground.derived[atom as usize] {
@@ -88,9 +83,6 @@ impl<'a> Builder<'a> {
             } else {
                 ground.init[atom as usize] = true;
             }
-        }
-        for (function, args, value) in &lifted.values {
-            world.set_value(*function, args, *value);
         }
         Builder { world, expander: Expander::default(), ground, limits }
     }
@@ -124,10 +116,10 @@ impl<'a> Builder<'a> {
             }
         }
         for comparison in &body.comparisons {
-            let held =
-                self.world.compare(comparison.comparison, &comparison.left, &comparison.right, binding)?;
-            if held.is_none_or(|held| held != comparison.positive) {
-                return Ok(false);
+            match self.world.compare(comparison, binding, &mut self.ground) {
+                Value::Constant(true) => {}
+                Value::Constant(false) => return Ok(false),
+                Value::Open(lit) => out.push(lit),
             }
         }
         for (at, forall) in body.foralls.iter().enumerate() {
@@ -153,20 +145,17 @@ impl<'a> Builder<'a> {
         Ok(out.windows(2).all(|pair| pair[0].atom() != pair[1].atom()))
     }
 
-    fn effects(&mut self) -> Result<EffectsByRow, GroundError> {
+    fn effects(&mut self) -> Result<Vec<Conditional>, GroundError> {
         let lifted = self.world.lifted;
-        let mut by_row: EffectsByRow = vec![Vec::new(); lifted.schemas.len()];
+        let mut by_action = vec![Conditional::default(); lifted.schemas.len()];
         let (mut binding, mut condition) = (Vec::new(), Vec::new());
         for (index, rule) in lifted.rules.iter().enumerate() {
             let Head::Effect { action, effect } = rule.head else { continue };
             let schema = &lifted.schemas[action as usize];
-            let (atom, holds) = match &schema.conditional[effect as usize] {
-                Change::Add(atom) => (atom, true),
-                Change::Delete(atom) => (atom, false),
-                Change::Assign => continue,
-            };
+            let change = &schema.conditional[effect as usize];
             // The first atom says that the action was reached, the second of a delete that it can matter.
-            let skip = if holds { 1 } else { 2 };
+            let skip = if matches!(change, Change::Delete(_)) { 2 } else { 1 };
+            let into = &mut by_action[action as usize];
             let width = rule.body.bound.len();
             for instance in 0..self.world.reached.counts[index] {
                 let values = &self.world.reached.instances[index][instance * width..(instance + 1) * width];
@@ -174,24 +163,41 @@ impl<'a> Builder<'a> {
                 if !self.condition(index as u32, &rule.body, skip, &mut binding, &mut condition)? {
                     continue;
                 }
-                let Value::Open(mut effect) = self.world.literal(atom, true, &binding) else { continue };
-                if !holds {
-                    effect = effect.negated();
-                }
                 let applied = &self.world.reached.relations[schema.applied as usize];
                 let Some(row) = applied.find(&values[..schema.params]) else { continue };
+                let (Change::Add(atom) | Change::Delete(atom)) = change else {
+                    let condition = self.ground.store(&condition);
+                    into.numbers.extend(self.number(change, condition, &binding).map(|effect| (row, effect)));
+                    continue;
+                };
+                let Value::Open(mut effect) = self.world.literal(atom, true, &binding) else { continue };
+                if matches!(change, Change::Delete(_)) {
+                    effect = effect.negated();
+                }
                 let condition = self.ground.store(&condition);
-                by_row[action as usize].push((row, GroundEffect { condition, effect }));
+                into.facts.push((row, GroundEffect { condition, effect }));
             }
         }
-        for effects in &mut by_row {
+        for effects in &mut by_action {
             // Stable, so that effects keep the order of their rules.
-            effects.sort_by_key(|&(row, _)| row);
+            effects.facts.sort_by_key(|&(row, _)| row);
+            effects.numbers.sort_by_key(|&(row, _)| row);
         }
-        Ok(by_row)
+        Ok(by_action)
     }
 
-    fn operators(&mut self, index: usize, action: u32, effects: &EffectsByRow) -> Result<(), GroundError> {
+    /// The effect on a number, if the change is one.
+    fn number(
+        &mut self,
+        change: &Change,
+        condition: Stretch,
+        binding: &[u32],
+    ) -> Option<GroundNumericEffect> {
+        let Change::Numeric(op, target, value) = change else { return None };
+        Some(self.world.change((*op, target, value), condition, binding, &mut self.ground.numbers))
+    }
+
+    fn operators(&mut self, index: usize, action: u32, effects: &[Conditional]) -> Result<(), GroundError> {
         let (lifted, reached) = (self.world.lifted, self.world.reached);
         let (rule, schema) = (&lifted.rules[index], &lifted.schemas[action as usize]);
         let width = rule.body.bound.len();
@@ -202,22 +208,23 @@ impl<'a> Builder<'a> {
             if !self.condition(index as u32, &rule.body, 0, &mut binding, &mut lits)? {
                 continue;
             }
-            let Some(cost) = self.world.cost(schema, lifted.has_costs, &binding)? else { continue };
+            let Some(cost) = self.world.cost(schema, &binding, &mut self.ground.numbers) else { continue };
             let precondition = self.ground.store(&lits);
             plain.clear();
             for change in &schema.effects {
                 let (atom, holds) = match change {
                     Change::Add(atom) => (atom, true),
                     Change::Delete(atom) => (atom, false),
-                    Change::Assign => continue,
+                    Change::Numeric(..) => continue,
                 };
                 // Atoms that are never true need no delete.
                 if let Value::Open(lit) = self.world.literal(atom, true, &binding) {
                     plain.push(if holds { lit } else { lit.negated() });
                 }
             }
-            let conditional =
-                self.conditional_effects(schema.applied, values, &effects[action as usize], &mut plain);
+            let effects = &effects[action as usize];
+            let conditional = self.conditional_effects(schema.applied, values, &effects.facts, &mut plain);
+            let numeric = self.numeric_effects(schema, values, &effects.numbers, &binding);
             // Where an action both deletes and adds an atom, the add wins; it is the smaller literal.
             plain.sort_unstable();
             plain.dedup_by_key(|lit| lit.atom());
@@ -230,6 +237,7 @@ impl<'a> Builder<'a> {
                 precondition,
                 effects: stored,
                 conditional,
+                numeric,
                 cost,
             });
         }
@@ -257,6 +265,28 @@ impl<'a> Builder<'a> {
             }
         }
         Stretch { start, len: self.ground.conditional.len() as u32 - start }
+    }
+
+    /// Stores the effects on numbers of one reached action, the plain ones first.
+    fn numeric_effects(
+        &mut self,
+        schema: &Schema,
+        values: &[u32],
+        conditional: &[(u32, GroundNumericEffect)],
+        binding: &[u32],
+    ) -> Stretch {
+        let start = self.ground.numbers.effects.len() as u32;
+        for change in &schema.effects {
+            let effect = self.number(change, Stretch::default(), binding);
+            self.ground.numbers.effects.extend(effect);
+        }
+        if !conditional.is_empty() {
+            let row = self.world.reached.relations[schema.applied as usize].find(values).unwrap_or(UNBOUND);
+            let first = conditional.partition_point(|&(r, _)| r < row);
+            let same = conditional[first..].iter().take_while(|&&(r, _)| r == row);
+            self.ground.numbers.effects.extend(same.map(|(_, effect)| effect.clone()));
+        }
+        Stretch { start, len: self.ground.numbers.effects.len() as u32 - start }
     }
 
     fn axioms(&mut self, index: usize, head: &LiftedAtom) -> Result<(), GroundError> {
@@ -291,6 +321,12 @@ impl<'a> Builder<'a> {
         for atom in &body.absent {
             if let Value::Constant(false) = self.world.literal(atom, false, &binding) {
                 let text = format!("(not {})", self.world.describe(atom));
+                self.ground.impossible.push(text);
+            }
+        }
+        for comparison in &body.comparisons {
+            if let Value::Constant(false) = self.world.compare(comparison, &binding, &mut self.ground) {
+                let text = describe(&Formula::Compare(comparison.clone()), &lifted.symbols, &[]);
                 self.ground.impossible.push(text);
             }
         }
@@ -343,101 +379,6 @@ impl World<'_> {
         }
     }
 
-    fn set_value(&mut self, function: u32, args: &[u32], value: f64) {
-        let key: Vec<u32> = std::iter::once(function).chain(args.iter().copied()).collect();
-        let hash = hash_words(&key);
-        match self.value_table.find(hash, |id| self.value_keys[id as usize] == key) {
-            Slot::Found(id) => self.values[id as usize] = value,
-            Slot::Free(at) => {
-                let id = self.values.len() as u32;
-                self.value_keys.push(key);
-                self.values.push(value);
-                let keys = &self.value_keys;
-                self.value_table.insert(at, hash, id, |id| hash_words(&keys[id as usize]));
-            }
-        }
-    }
-
-    /// The value of an expression of functions that never change; `None` where one has no value.
-    fn evaluate(&self, expr: &Expr, binding: &[u32]) -> Result<Option<f64>, GroundError> {
-        Ok(match expr {
-            Expr::Number(value) => Some(*value),
-            Expr::Value(of) => {
-                let declared = &self.lifted.symbols.functions[of.predicate as usize];
-                if declared.role != Role::Static {
-                    return Err(GroundError::Unsupported(format!(
-                        "the number `({})` changes and is read; the planner cannot search over numbers yet",
-                        declared.name
-                    )));
-                }
-                let key: Vec<u32> = std::iter::once(of.predicate)
-                    .chain(of.args.iter().map(|&t| object(t, binding)))
-                    .collect();
-                match self.value_table.find(hash_words(&key), |id| self.value_keys[id as usize] == key) {
-                    Slot::Found(id) => Some(self.values[id as usize]),
-                    Slot::Free(_) => None,
-                }
-            }
-            Expr::Operation(op, parts) => {
-                let mut values = Vec::with_capacity(parts.len());
-                for part in parts {
-                    match self.evaluate(part, binding)? {
-                        Some(value) => values.push(value),
-                        None => return Ok(None),
-                    }
-                }
-                calculate(*op, &values)
-            }
-        })
-    }
-
-    /// Whether a comparison of numbers that never change holds; `None` where one has no value.
-    pub fn compare(
-        &self,
-        comparison: Comparison,
-        left: &Expr,
-        right: &Expr,
-        binding: &[u32],
-    ) -> Result<Option<bool>, GroundError> {
-        let (Some(left), Some(right)) = (self.evaluate(left, binding)?, self.evaluate(right, binding)?)
-        else {
-            return Ok(None);
-        };
-        Ok(Some(match comparison {
-            Comparison::Less => left < right,
-            Comparison::LessEqual => left <= right,
-            Comparison::Equal => left == right,
-            Comparison::GreaterEqual => left >= right,
-            Comparison::Greater => left > right,
-        }))
-    }
-
-    /// An operator's cost; `None` where it has no value, so that the operator cannot be applied.
-    fn cost(
-        &self,
-        schema: &crate::lifted::Schema,
-        has_costs: bool,
-        binding: &[u32],
-    ) -> Result<Option<f64>, GroundError> {
-        if !has_costs {
-            return Ok(Some(1.0));
-        }
-        let mut sum = 0.0;
-        for part in &schema.cost {
-            match self.evaluate(part, binding)? {
-                Some(value) if value < 0.0 => {
-                    return Err(GroundError::Unsupported(format!(
-                        "the action `{}` has a negative cost",
-                        schema.name
-                    )));
-                }
-                Some(value) => sum += value,
-                None => return Ok(None),
-            }
-        }
-        Ok(Some(sum))
-    }
-
     /// A goal atom for people.
     fn describe(&self, atom: &LiftedAtom) -> String {
         let explained = &self.lifted.explained;
@@ -457,18 +398,4 @@ pub(super) fn object(term: Term, binding: &[u32]) -> u32 {
         Term::Object(object) => object,
         Term::Variable(slot) => binding[slot as usize],
     }
-}
-
-/// Arithmetic; `None` for a division by zero.
-pub(super) fn calculate(op: ArithmeticOp, values: &[f64]) -> Option<f64> {
-    let (&first, rest) = values.split_first()?;
-    if rest.is_empty() && op == ArithmeticOp::Subtract {
-        return Some(-first);
-    }
-    rest.iter().try_fold(first, |sum, &value| match op {
-        ArithmeticOp::Add => Some(sum + value),
-        ArithmeticOp::Subtract => Some(sum - value),
-        ArithmeticOp::Multiply => Some(sum * value),
-        ArithmeticOp::Divide => (value != 0.0).then(|| sum / value),
-    })
 }

@@ -4,12 +4,14 @@
 //! its instances as propositional operators ([`instantiate`], [`quantified`]), the removal of what is
 //! constant or irrelevant ([`simplify`]), mutex groups ([`invariant`]) and finite-domain packing ([`encode`]).
 
+mod bounds;
 mod encode;
 mod inline;
 mod instantiate;
 mod invariant;
 mod join;
 mod layers;
+mod numbers;
 mod propositional;
 mod quantified;
 mod reach;

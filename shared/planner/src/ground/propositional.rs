@@ -1,5 +1,7 @@
 //! The grounded task over propositions, between instantiation and finite-domain encoding.
 
+use super::numbers::Numbers;
+
 /// An atom or its negation: twice the atom's number, plus one where it must be (or becomes) false.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Lit(pub u32);
@@ -57,6 +59,8 @@ pub(crate) struct GroundOperator {
     pub effects: Stretch,
     /// Stretch of [`Ground::conditional`].
     pub conditional: Stretch,
+    /// Stretch of the effects in [`Ground::numbers`].
+    pub numeric: Stretch,
     pub cost: f64,
 }
 
@@ -81,6 +85,8 @@ pub(crate) struct Ground {
     pub operators: Vec<GroundOperator>,
     pub conditional: Vec<GroundEffect>,
     pub rules: Vec<GroundRule>,
+    /// What changes and compares numbers.
+    pub numbers: Numbers,
     pub goal: Stretch,
     /// Parts of the goal that can never hold, as text. Not empty: the task has no solution.
     pub impossible: Vec<String>,
@@ -96,6 +102,14 @@ pub(crate) struct Ground {
 impl Ground {
     pub fn lits(&self, stretch: Stretch) -> &[Lit] {
         &self.pool[stretch.range()]
+    }
+
+    /// A derived atom that only exists on ground level.
+    pub fn new_derived(&mut self) -> u32 {
+        self.names.push(None);
+        self.derived.push(true);
+        self.init.push(false);
+        self.names.len() as u32 - 1
     }
 
     /// Stores literals.

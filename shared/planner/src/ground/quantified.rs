@@ -131,9 +131,12 @@ impl Expansion<'_, '_> {
                 let same = object(*left, self.binding) == object(*right, self.binding);
                 Ok(if same == *positive { Expanded::All(Vec::new()) } else { Expanded::False })
             }
-            Formula::Compare { comparison, left, right, positive } => {
-                let held = self.world.compare(*comparison, left, right, self.binding)?;
-                Ok(if held == Some(*positive) { Expanded::All(Vec::new()) } else { Expanded::False })
+            Formula::Compare(comparison) => {
+                Ok(match self.world.compare(comparison, self.binding, self.ground) {
+                    Value::Constant(false) => Expanded::False,
+                    Value::Constant(true) => Expanded::All(Vec::new()),
+                    Value::Open(lit) => Expanded::All(vec![lit]),
+                })
             }
         }
     }
@@ -204,7 +207,7 @@ impl Expansion<'_, '_> {
                 let (left, right) = (object(*left, self.binding), object(*right, self.binding));
                 (left != UNBOUND && right != UNBOUND).then_some((left == right) == *positive)
             }
-            Formula::Compare { .. } | Formula::Exists(..) | Formula::Forall(..) => None,
+            Formula::Compare(_) | Formula::Exists(..) | Formula::Forall(..) => None,
         }
     }
 
@@ -225,10 +228,7 @@ impl Expansion<'_, '_> {
         if let Some(&atom) = self.made.get(&choices) {
             return Ok(Expanded::All(vec![Lit::new(atom, true)]));
         }
-        let atom = self.ground.names.len() as u32;
-        self.ground.names.push(None);
-        self.ground.derived.push(true);
-        self.ground.init.push(false);
+        let atom = self.ground.new_derived();
         for choice in &choices {
             let body = self.ground.store(choice);
             self.ground.rules.push(GroundRule { head: atom, body });

@@ -1,5 +1,6 @@
 //! The task without deletes as an and/or graph, shared by everything that reasons on it.
 
+use super::numeric;
 use crate::csr::Csr;
 use crate::id_table::{IdTable, Slot, hash_words};
 use crate::task::{FactId, OperatorId, Task};
@@ -10,7 +11,8 @@ pub(crate) const NO_NODE: u32 = u32::MAX;
 /// All subsets of so many conditions are looked up to find superfluous nodes.
 const MAX_SUBSETS_OF: usize = 5;
 
-/// A node is an operator, a conditional effect of one, or an axiom: when all its conditions are reached, so
+/// A node is an operator, a conditional effect of one, an axiom, or an operator's effect on a number that
+/// brings a comparison nearer to holding: when all its conditions are reached, so
 /// are its effects. Effects that no condition and no goal asks for are left out.
 #[derive(Debug)]
 pub(crate) struct Graph {
@@ -20,6 +22,11 @@ pub(crate) struct Graph {
     pub effects: Csr<FactId>,
     /// The operator of each node; [`NO_NODE`] for axioms.
     pub operator_of: Vec<u32>,
+    /// Nodes from this one on make comparisons of numbers hold.
+    pub first_numeric: u32,
+    /// Of these, those that take as many repetitions as the gap of the comparison is wide, with what each
+    /// repetition gains, by comparison.
+    pub repeated: Vec<(u32, Vec<(u32, f64)>)>,
     pub condition_count: Vec<u32>,
     /// Nodes without conditions.
     pub free_nodes: Vec<u32>,
@@ -55,6 +62,22 @@ impl Graph {
         for axiom in &task.axioms {
             nodes.add(task.axiom_bodies.row(axiom.body as usize), &[axiom.head], NO_NODE);
         }
+        let first_numeric = nodes.operator_of.len() as u32;
+        let mut repeated = Vec::new();
+        for (comparison, supports) in numeric::supports(task) {
+            let mut by_gain = Vec::new();
+            for support in supports {
+                let node = nodes.operator_of.len() as u32;
+                nodes.add(&support.conditions, &[support.fact], support.operator.0);
+                if node as usize == nodes.operator_of.len() {
+                    break;
+                }
+                by_gain.extend(support.gain.map(|gain| (node, gain)));
+            }
+            if !by_gain.is_empty() {
+                repeated.push((comparison, by_gain));
+            }
+        }
         let Nodes { conditions, effects, operator_of, .. } = nodes;
         let count = operator_of.len();
         let pairs =
@@ -69,6 +92,8 @@ impl Graph {
             conditions,
             effects,
             operator_of,
+            first_numeric,
+            repeated,
             condition_count,
         }
     }

@@ -4,6 +4,7 @@ mod bucket_queue;
 mod graph;
 mod landmark;
 mod lmcut;
+mod numeric;
 mod relaxation;
 
 pub(crate) use graph::Graph;

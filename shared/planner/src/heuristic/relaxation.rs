@@ -11,6 +11,9 @@ use crate::task::{FactId, OperatorId, Task};
 
 const UNREACHED: u32 = u32::MAX;
 
+/// An effect on a number counts at most so often.
+const MAX_REPETITIONS: f64 = 1e6;
+
 /// What an operator costs to a heuristic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Costs {
@@ -122,6 +125,9 @@ impl<'a> Relaxation<'a> {
         let graph = &**graph;
         labels.fill(Label { cost: UNREACHED, supporter: NO_NODE, done: false });
         nodes.copy_from_slice(fresh);
+        if !MAX && !graph.repeated.is_empty() {
+            repeat(task, graph, state, nodes);
+        }
         queue.clear();
         let labels = &mut labels[..];
         let nodes = &mut nodes[..];
@@ -210,10 +216,17 @@ impl<'a> Relaxation<'a> {
             }
             self.agenda.extend_from_slice(self.graph.conditions.row(node as usize));
             let operator = self.graph.operator_of[node as usize];
-            if operator == NO_NODE || !self.marked_operators.mark(operator as usize) {
+            if operator == NO_NODE {
                 continue;
             }
-            total = total.saturating_add(self.fresh[node as usize].base);
+            let again = !self.marked_operators.mark(operator as usize);
+            if again && node < self.graph.first_numeric {
+                continue;
+            }
+            total = total.saturating_add(self.nodes[node as usize].base).min(UNREACHED - 1);
+            if again {
+                continue;
+            }
             let operator = OperatorId(operator);
             self.relaxed_plan.push(operator);
             if self.task.applicable(state, operator) {
@@ -221,6 +234,21 @@ impl<'a> Relaxation<'a> {
             }
         }
         Some(total)
+    }
+}
+
+/// Charges nodes that change numbers for as many repetitions as it takes from `state` on (Scala, Haslum &
+/// Thiébaux 2016, "Heuristics for numeric planning via subgoaling", section 4).
+fn repeat(task: &Task, graph: &Graph, state: &[u64], nodes: &mut [Node]) {
+    for (comparison, by_gain) in &graph.repeated {
+        let gap = task.numeric.comparisons[*comparison as usize].1.gap(task.numeric.of(state));
+        for &(node, gain) in by_gain {
+            let times = (gap / gain).ceil().clamp(1.0, MAX_REPETITIONS);
+            let node = &mut nodes[node as usize];
+            // Without a gap (a number without a value) it counts once.
+            node.base = node.base.saturating_mul(if times.is_nan() { 1 } else { times as u32 });
+            node.cost = node.base;
+        }
     }
 }
 

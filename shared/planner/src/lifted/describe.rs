@@ -1,9 +1,10 @@
 //! Conditions as text, for the reasons given to people.
 
 use lamma_pddl::Name;
-use lamma_pddl::ast::{ArithmeticOp, Comparison};
+use lamma_pddl::ast::ArithmeticOp;
 
-use super::{Expr, Formula, LiftedAtom, Symbols, Term};
+use super::{Expr, Formula, LiftedAtom, LiftedComparison, Symbols, Term};
+use crate::numeric::Relation;
 
 /// PDDL text of a formula; `names` are the names of the variable slots.
 pub(crate) fn formula(of: &Formula, symbols: &Symbols, names: &[Name]) -> String {
@@ -19,9 +20,8 @@ pub(crate) fn formula(of: &Formula, symbols: &Symbols, names: &[Name]) -> String
             let text = format!("(= {} {})", term(*left, symbols, names), term(*right, symbols, names));
             negate(text, *positive)
         }
-        Formula::Compare { comparison, left, right, positive } => {
-            let (left, right) = (expression(left, symbols, names), expression(right, symbols, names));
-            negate(format!("({} {left} {right})", sign(*comparison)), *positive)
+        Formula::Compare(LiftedComparison { relation, left, right }) => {
+            compared(*relation, &expression(left, symbols, names), &expression(right, symbols, names))
         }
         Formula::And(parts) => format!("(and{})", list(parts)),
         Formula::Or(parts) => format!("(or{})", list(parts)),
@@ -59,24 +59,27 @@ fn expression(of: &Expr, symbols: &Symbols, names: &[Name]) -> String {
         Expr::Number(value) => value.to_string(),
         Expr::Value(of) => named(&symbols.functions[of.predicate as usize].name, of, symbols, names),
         Expr::Operation(op, parts) => {
-            let op = match op {
-                ArithmeticOp::Add => '+',
-                ArithmeticOp::Subtract => '-',
-                ArithmeticOp::Multiply => '*',
-                ArithmeticOp::Divide => '/',
-            };
             let parts: String = parts.iter().map(|p| format!(" {}", expression(p, symbols, names))).collect();
-            format!("({op}{parts})")
+            format!("({}{parts})", sign(*op))
         }
     }
 }
 
-fn sign(comparison: Comparison) -> &'static str {
-    match comparison {
-        Comparison::Less => "<",
-        Comparison::LessEqual => "<=",
-        Comparison::Equal => "=",
-        Comparison::GreaterEqual => ">=",
-        Comparison::Greater => ">",
+/// The sign of an operation.
+pub(crate) fn sign(op: ArithmeticOp) -> char {
+    match op {
+        ArithmeticOp::Add => '+',
+        ArithmeticOp::Subtract => '-',
+        ArithmeticOp::Multiply => '*',
+        ArithmeticOp::Divide => '/',
+    }
+}
+
+/// PDDL text of a comparison of two texts.
+pub(crate) fn compared(relation: Relation, left: &str, right: &str) -> String {
+    match relation {
+        Relation::AtLeast => format!("(>= {left} {right})"),
+        Relation::Above => format!("(> {left} {right})"),
+        Relation::Differs => format!("(not (= {left} {right}))"),
     }
 }

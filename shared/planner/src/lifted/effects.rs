@@ -1,79 +1,29 @@
 //! Effects: the plain ones apart from those with quantifiers or conditions, and costs apart from both.
 
-use lamma_pddl::ast::{ArithmeticOp, AssignOp, Domain, Effect, NumericExpr, Problem};
+use lamma_pddl::ast::{Action, ArithmeticOp, Effect};
 
+use super::metric::Metric;
 use super::resolve::{Scope, and, atom, expression, formula, function};
 use super::rules::Lifter;
-use super::{Change, Expr, Formula, LiftedAtom, Symbols};
+use super::{Change, Expr, Formula};
 use crate::ground::GroundError;
 
 /// An effect under quantified variables and a condition.
 pub(super) type Conditional = (Vec<u32>, Formula, Change);
 
-/// The functions whose sum the metric minimises, if every action changes them by an amount that is known
-/// beforehand; empty where actions cost one each.
-pub(super) fn cost_functions(
-    symbols: &mut Symbols,
-    domain: &Domain,
-    problem: &Problem,
-) -> Result<Vec<LiftedAtom>, GroundError> {
-    let Some(metric) = problem.metric.as_ref().filter(|metric| metric.minimize) else {
-        return Ok(Vec::new());
-    };
-    let mut functions = Vec::new();
-    let mut agenda = vec![&metric.expression];
-    while let Some(part) = agenda.pop() {
-        match part {
-            NumericExpr::Function(of) if of.args.is_empty() => {
-                functions.push(function(symbols, &Scope::default(), of)?);
-            }
-            NumericExpr::Operation(ArithmeticOp::Add, parts) => agenda.extend(parts),
-            // Other metrics do not change which plans are right; the search then counts actions.
-            _ => return Ok(Vec::new()),
-        }
-    }
-    let names: Vec<_> =
-        functions.iter().map(|f| symbols.functions[f.predicate as usize].name.clone()).collect();
-    let only_increased = domain.actions.iter().all(|action| {
-        let mut agenda = vec![(&action.effect, true)];
-        while let Some((effect, plain)) = agenda.pop() {
-            match effect {
-                Effect::And(parts) => agenda.extend(parts.iter().map(|part| (part, plain))),
-                Effect::Forall(_, inner) | Effect::When(_, inner) => agenda.push((inner, false)),
-                Effect::Assign(op, target, value) => {
-                    let known = plain && *op == AssignOp::Increase && is_static(symbols, value);
-                    if names.contains(&target.function) && !known {
-                        return false;
-                    }
-                }
-                Effect::Add(_) | Effect::Delete(_) => {}
-            }
-        }
-        true
-    });
-    Ok(if only_increased { functions } else { Vec::new() })
-}
-
-fn is_static(symbols: &mut Symbols, value: &NumericExpr) -> bool {
-    match value {
-        NumericExpr::Number(_) => true,
-        NumericExpr::Function(of) => symbols
-            .function(&of.function, of.args.len())
-            .is_ok_and(|id| symbols.functions[id as usize].role == super::Role::Static),
-        NumericExpr::Operation(_, parts) => parts.iter().all(|part| is_static(symbols, part)),
-    }
-}
-
-/// Splits an effect into plain changes, conditional ones, and the action's cost.
+/// Splits an action's effect into plain changes, conditional ones, and the action's cost.
 pub(super) fn split(
     lifter: &mut Lifter,
     scope: &mut Scope,
-    effect: &Effect,
-    metric: &[LiftedAtom],
+    action: &Action,
+    metric: &Metric,
 ) -> Result<Parts, GroundError> {
     let mut parts = Parts { plain: Vec::new(), conditional: Vec::new(), cost: Vec::new() };
     let context = Context { quantified: Vec::new(), condition: Formula::And(Vec::new()) };
-    parts.collect(lifter, scope, effect, &context, metric, 0)?;
+    parts.collect(lifter, scope, &action.effect, &context, metric, 0)?;
+    if let Some(cost) = metric.cost_of_time(action) {
+        parts.cost.push(expression(&mut lifter.symbols, scope, &cost, 0)?);
+    }
     Ok(parts)
 }
 
@@ -97,7 +47,7 @@ impl Parts {
         scope: &mut Scope,
         effect: &Effect,
         context: &Context,
-        metric: &[LiftedAtom],
+        metric: &Metric,
         depth: usize,
     ) -> Result<(), GroundError> {
         if depth > 200 {
@@ -126,14 +76,16 @@ impl Parts {
             }
             Effect::Add(of) => Change::Add(atom(symbols, scope, of)?),
             Effect::Delete(of) => Change::Delete(atom(symbols, scope, of)?),
-            Effect::Assign(_, target, value) => {
-                let target = function(symbols, scope, target)?;
+            Effect::Assign(op, target, value) => {
                 let value = expression(symbols, scope, value, 0)?;
-                if metric.contains(&target) {
-                    self.cost.push(value);
-                    return Ok(());
+                if let Some(weight) = metric.weight(&target.function) {
+                    let parts = vec![Expr::Number(weight), value.clone()];
+                    self.cost.push(Expr::Operation(ArithmeticOp::Multiply, parts));
+                    if metric.only_costs(&target.function) {
+                        return Ok(());
+                    }
                 }
-                Change::Assign
+                Change::Numeric(*op, function(symbols, scope, target)?, value)
             }
         };
         let unconditional = matches!(&context.condition, Formula::And(parts) if parts.is_empty());

@@ -5,16 +5,20 @@
 
 mod describe;
 mod effects;
+mod metric;
 mod resolve;
 mod rules;
 mod symbols;
 
 use lamma_pddl::Name;
-use lamma_pddl::ast::{ArithmeticOp, Comparison, Decimal};
+use lamma_pddl::ast::{ArithmeticOp, AssignOp, Decimal};
 
+pub(crate) use describe::{compared, formula as describe, sign};
 pub(crate) use resolve::free_variables;
 pub(crate) use rules::lift;
 pub(crate) use symbols::Symbols;
+
+use crate::numeric::Relation;
 
 /// A variable (a slot of the rule's scope) or an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +41,7 @@ pub(crate) struct LiftedAtom {
 pub(crate) enum Formula {
     Literal { atom: LiftedAtom, positive: bool },
     Equal { left: Term, right: Term, positive: bool },
-    Compare { comparison: Comparison, left: Expr, right: Expr, positive: bool },
+    Compare(LiftedComparison),
     And(Vec<Formula>),
     Or(Vec<Formula>),
     Exists(Vec<u32>, Box<Formula>),
@@ -52,13 +56,12 @@ pub(crate) enum Expr {
     Operation(ArithmeticOp, Vec<Expr>),
 }
 
-/// A comparison of numbers, or its negation.
+/// A comparison of numbers.
 #[derive(Clone, Debug)]
 pub(crate) struct LiftedComparison {
-    pub comparison: Comparison,
+    pub relation: Relation,
     pub left: Expr,
     pub right: Expr,
-    pub positive: bool,
 }
 
 /// What a predicate is to the task.
@@ -119,9 +122,8 @@ pub(crate) struct Rule {
 pub(crate) enum Change {
     Add(LiftedAtom),
     Delete(LiftedAtom),
-    /// A number changes that no condition reads and no metric counts, so the search leaves it out.
-    /// (Reading one is refused while grounding.)
-    Assign,
+    /// A number changes.
+    Numeric(AssignOp, LiftedAtom, Expr),
 }
 
 /// An action schema without its conditions, which are rules.
@@ -156,6 +158,8 @@ pub(crate) struct Lifted {
     pub values: Vec<(u32, Vec<u32>, f64)>,
     /// Whether actions cost what `Schema::cost` says instead of one each.
     pub has_costs: bool,
+    /// What the search does otherwise than the task asks, for people.
+    pub warnings: Vec<String>,
     /// What each condition that became a derived predicate says, for people.
     pub explained: Vec<(u32, String)>,
 }

@@ -2,10 +2,11 @@
 //! literals, quantifiers to where their variables are used.
 
 use lamma_pddl::Name;
-use lamma_pddl::ast::{Atom, Condition, FunctionTerm, NumericExpr, Term as AstTerm, TypedName};
+use lamma_pddl::ast::{Atom, Comparison, Condition, FunctionTerm, NumericExpr, Term as AstTerm, TypedName};
 
-use super::{Expr, Formula, LiftedAtom, Symbols, Term, number};
+use super::{Expr, Formula, LiftedAtom, LiftedComparison, Symbols, Term, number};
 use crate::ground::GroundError;
+use crate::numeric::Relation;
 
 /// Conditions nested deeper than this are refused; the recursion below is then safe.
 const MAX_DEPTH: usize = 200;
@@ -141,13 +142,32 @@ pub(crate) fn formula(
                 _ => Formula::Equal { left, right, positive },
             }
         }
-        Condition::Compare(comparison, left, right) => Formula::Compare {
-            comparison: *comparison,
-            left: expression(symbols, scope, left, depth + 1)?,
-            right: expression(symbols, scope, right, depth + 1)?,
-            positive,
-        },
+        Condition::Compare(of, left, right) => {
+            let left = expression(symbols, scope, left, depth + 1)?;
+            let right = expression(symbols, scope, right, depth + 1)?;
+            comparison(*of, left, right, positive)
+        }
     })
+}
+
+/// A comparison or its negation. A negated one, too, holds only where both sides have a value.
+fn comparison(of: Comparison, left: Expr, right: Expr, positive: bool) -> Formula {
+    let compare = |relation, left, right| Formula::Compare(LiftedComparison { relation, left, right });
+    match (of, positive) {
+        (Comparison::GreaterEqual, true) | (Comparison::Less, false) => {
+            compare(Relation::AtLeast, left, right)
+        }
+        (Comparison::Greater, true) | (Comparison::LessEqual, false) => compare(Relation::Above, left, right),
+        (Comparison::LessEqual, true) | (Comparison::Greater, false) => {
+            compare(Relation::AtLeast, right, left)
+        }
+        (Comparison::Less, true) | (Comparison::GreaterEqual, false) => compare(Relation::Above, right, left),
+        (Comparison::Equal, false) => compare(Relation::Differs, left, right),
+        (Comparison::Equal, true) => and(vec![
+            compare(Relation::AtLeast, left.clone(), right.clone()),
+            compare(Relation::AtLeast, right, left),
+        ]),
+    }
 }
 
 fn constant(value: bool) -> Formula {
@@ -266,7 +286,7 @@ fn collect_variables(formula: &Formula, used: &mut Vec<u32>, quantified: &mut Ve
     match formula {
         Formula::Literal { atom, .. } => atom.args.iter().for_each(add),
         Formula::Equal { left, right, .. } => [left, right].into_iter().for_each(add),
-        Formula::Compare { left, right, .. } => {
+        Formula::Compare(LiftedComparison { left, right, .. }) => {
             [left, right].into_iter().for_each(|e| expression_variables(e, used))
         }
         Formula::And(parts) | Formula::Or(parts) => {

@@ -2,10 +2,11 @@
 
 use lamma_pddl::ast::{Domain, Init, Problem};
 
+use super::metric::Metric;
 use super::resolve::{Scope, formula, free_variables};
 use super::{
-    Body, Change, Formula, Head, Lifted, LiftedAtom, LiftedComparison, Role, Rule, Schema, Symbols, Term,
-    describe, effects,
+    Body, Change, Formula, Head, Lifted, LiftedAtom, Role, Rule, Schema, Symbols, Term, describe, effects,
+    metric,
 };
 use crate::ground::GroundError;
 
@@ -17,7 +18,12 @@ const MAX_VARIANTS: usize = 4;
 pub(crate) fn lift(domain: &Domain, problem: &Problem) -> Result<Lifted, GroundError> {
     let symbols = Symbols::new(domain, problem)?;
     let mut lifter = Lifter { symbols, rules: Vec::new(), explained: Vec::new() };
-    let metric = effects::cost_functions(&mut lifter.symbols, domain, problem)?;
+    let (metric, warnings) = match metric::metric(&mut lifter.symbols, domain, problem)? {
+        Ok(metric) => (metric, Vec::new()),
+        Err(warning) => (None, vec![warning]),
+    };
+    let has_costs = metric.is_some();
+    let metric = metric.unwrap_or_default();
     let mut schemas = Vec::with_capacity(domain.actions.len());
     for (index, action) in domain.actions.iter().enumerate() {
         schemas.push(lifter.action(index as u32, action, &metric)?);
@@ -56,7 +62,8 @@ pub(crate) fn lift(domain: &Domain, problem: &Problem) -> Result<Lifted, GroundE
         goal_foralls,
         init,
         values,
-        has_costs: !metric.is_empty(),
+        has_costs,
+        warnings,
         explained,
     })
 }
@@ -73,13 +80,12 @@ impl Lifter {
         &mut self,
         index: u32,
         action: &lamma_pddl::ast::Action,
-        metric: &[LiftedAtom],
+        metric: &Metric,
     ) -> Result<Schema, GroundError> {
         let mut scope = Scope::default();
         let params = scope.open(&mut self.symbols, &action.params);
         let precondition = formula(&mut self.symbols, &mut scope, &action.precondition, true, 0)?;
-        let effects::Parts { plain, conditional, cost } =
-            effects::split(self, &mut scope, &action.effect, metric)?;
+        let effects::Parts { plain, conditional, cost } = effects::split(self, &mut scope, action, metric)?;
         let applied = self.symbols.fresh_predicate(format!("@{}", action.name), params.len(), Role::Applied);
         for body in self.bodies(precondition, &scope, params.clone(), false) {
             self.rules.push(Rule { head: Head::Act { action: index }, body });
@@ -181,9 +187,7 @@ impl Lifter {
             Formula::Literal { atom, positive: true } => body.atoms.push(atom),
             Formula::Literal { atom, positive: false } => body.absent.push(atom),
             Formula::Equal { left, right, positive } => body.equal.push((left, right, positive)),
-            Formula::Compare { comparison, left, right, positive } => {
-                body.comparisons.push(LiftedComparison { comparison, left, right, positive });
-            }
+            Formula::Compare(comparison) => body.comparisons.push(comparison),
             Formula::Forall(..) => body.foralls.push(condition),
             Formula::Or(parts) if parts.is_empty() => body.never = true,
             Formula::Or(_) | Formula::Exists(..) => {

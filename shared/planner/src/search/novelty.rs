@@ -75,7 +75,7 @@ impl<'a, 't> WidthSearch<'a, 't> {
         width: u32,
         prune: bool,
     ) -> Self {
-        let mut variable_of_bit = vec![0; task.state_words() * 64];
+        let mut variable_of_bit = vec![0; task.packed_words() * 64];
         for (index, variable) in task.variables.iter().enumerate() {
             let bits = variable.mask.count_ones();
             let start = variable.word * 64 + variable.shift;
@@ -214,7 +214,7 @@ impl<'a, 't> WidthSearch<'a, 't> {
     fn find_changes(&mut self, state: &[u64], next: &[u64]) {
         self.changed.clear();
         let mut last = u32::MAX;
-        for (word, (before, after)) in state.iter().zip(next).enumerate() {
+        for (word, (before, after)) in state.iter().zip(next).take(self.task.packed_words()).enumerate() {
             let mut difference = before ^ after;
             while difference != 0 {
                 let bit = difference.trailing_zeros();

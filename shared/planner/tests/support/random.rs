@@ -1,4 +1,6 @@
 //! Random small tasks with every connective, quantifier, conditional effects and axioms; a seed is a task.
+//! With numbers, too: small whole ones, so that there are few states.
+#![allow(dead_code)]
 
 use lamma_pddl::Name;
 use lamma_pddl::ast::*;
@@ -207,4 +209,126 @@ fn negates_derived(condition: &Condition, positive: bool) -> bool {
         Condition::Exists(_, inner) | Condition::Forall(_, inner) => negates_derived(inner, positive),
         Condition::Equal(..) | Condition::Compare(..) => false,
     }
+}
+
+/// Numeric functions with the types of their parameters; `k` never changes.
+const FUNCTIONS: [(&str, &[&str]); 3] = [("n", &[]), ("m", &["a"]), ("k", &["a"])];
+
+/// No number leaves the range from minus this to twice this.
+const LARGEST: i64 = 3;
+
+fn function(random: &mut Random, scope: &Scope, choices: &[usize]) -> FunctionTerm {
+    let (name, types) = FUNCTIONS[*random.pick(choices)];
+    let args = types.iter().map(|of| {
+        let mut terms: Vec<Term> =
+            scope.iter().filter(|(_, t)| t == of).map(|(v, _)| Term::Variable(Name::new(v))).collect();
+        if terms.is_empty() {
+            let objects = OBJECTS.iter().filter(|(_, t)| t == of);
+            terms = objects.map(|(o, _)| Term::Constant(Name::new(o))).collect();
+        }
+        random.pick(&terms).clone()
+    });
+    FunctionTerm { function: Name::new(name), args: args.collect() }
+}
+
+fn whole(value: i64) -> NumericExpr {
+    NumericExpr::Number(Decimal(value.to_string()))
+}
+
+fn number(random: &mut Random, scope: &Scope, depth: usize) -> NumericExpr {
+    match if depth == 0 { random.below(70) } else { random.below(100) } {
+        0..25 => whole(random.below(5) as i64 - 1),
+        25..70 => NumericExpr::Function(function(random, scope, &[0, 1, 2])),
+        _ => {
+            let op = *random.pick(&[ArithmeticOp::Add, ArithmeticOp::Subtract, ArithmeticOp::Multiply]);
+            let parts = (0..2).map(|_| number(random, scope, depth - 1)).collect();
+            NumericExpr::Operation(op, parts)
+        }
+    }
+}
+
+fn comparison(random: &mut Random, scope: &Scope) -> Condition {
+    const ALL: [Comparison; 5] = [
+        Comparison::Less,
+        Comparison::LessEqual,
+        Comparison::Equal,
+        Comparison::GreaterEqual,
+        Comparison::Greater,
+    ];
+    let compared = Condition::Compare(*random.pick(&ALL), number(random, scope, 1), number(random, scope, 1));
+    if random.chance(20) { Condition::Not(Box::new(compared)) } else { compared }
+}
+
+/// A change of a number that stays small.
+fn change(random: &mut Random, scope: &Scope) -> Effect {
+    let target = function(random, scope, &[0, 1]);
+    let now = NumericExpr::Function(target.clone());
+    let below = Condition::Compare(Comparison::Less, now.clone(), whole(LARGEST));
+    let above = Condition::Compare(Comparison::Greater, now, whole(-LARGEST));
+    let step = NumericExpr::Function(function(random, scope, &[2]));
+    let (op, value) = match random.below(6) {
+        0 => (AssignOp::Assign, whole(random.below(4) as i64 - 1)),
+        1 => (AssignOp::Assign, step),
+        2 => (AssignOp::Increase, step),
+        3 => (AssignOp::Increase, whole(1)),
+        4 => (AssignOp::ScaleUp, whole(-1)),
+        _ => (AssignOp::Decrease, whole(2)),
+    };
+    let small = Condition::And(vec![below, above]);
+    Effect::When(small, Box::new(Effect::Assign(op, target, value)))
+}
+
+/// A task whose conditions and effects are about numbers, too.
+pub fn numeric_task(seed: u64) -> (Domain, Problem) {
+    let (mut domain, mut problem) = task(seed);
+    let random = &mut Random(!seed);
+    domain.functions = FUNCTIONS
+        .iter()
+        .map(|(name, types)| Signature {
+            name: Name::new(name),
+            params: types.iter().map(|of| TypedName::new("x", *of)).collect(),
+            private_to: None,
+        })
+        .collect();
+    for action in &mut domain.actions {
+        let scope: Scope = action
+            .params
+            .iter()
+            .map(|param| (param.name.to_string(), if param.types[0] == "a" { "a" } else { "b" }))
+            .collect();
+        if random.chance(40) {
+            let parts = vec![action.precondition.clone(), comparison(random, &scope)];
+            action.precondition = Condition::And(parts);
+        }
+        // One change a function: several at once have no order.
+        if random.chance(80) {
+            let change = change(random, &scope);
+            let change = if random.chance(30) {
+                Effect::When(comparison(random, &scope), Box::new(change))
+            } else {
+                change
+            };
+            action.effect = Effect::And(vec![action.effect.clone(), change]);
+        }
+    }
+    for axiom in &mut domain.axioms {
+        if random.chance(40) {
+            let scope = vec![("x".to_string(), "a")];
+            axiom.body = Condition::Or(vec![axiom.body.clone(), comparison(random, &scope)]);
+        }
+    }
+    for (name, args) in
+        [("n", None), ("m", Some("a1")), ("m", Some("a2")), ("k", Some("a1")), ("k", Some("a2"))]
+    {
+        let value = Decimal((random.below(4) as i64 - 1).to_string());
+        problem.init.push(Init::Value(GroundAtom::new(name, args), value));
+    }
+    let wanted = if random.chance(50) {
+        comparison(random, &Scope::new())
+    } else {
+        let scope = vec![("v".to_string(), "a")];
+        Condition::Forall(vec![TypedName::new("v", "a")], Box::new(comparison(random, &scope)))
+    };
+    problem.goal = if random.chance(75) { wanted } else { Condition::And(vec![problem.goal, wanted]) };
+    (domain, problem)
 }
