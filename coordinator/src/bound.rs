@@ -1,36 +1,87 @@
-//! A lower bound of the team's makespan: no plan of any team member order can be shorter.
+//! How short a team's plan can be: the joint task, and bounds of its makespan.
 
 use std::collections::BTreeSet;
+use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::{Condition, GroundAtom};
 use lamma_planner::heuristic::{Costs, Estimate, Heuristic, LandmarkCut};
+use lamma_planner::{Makespan, MakespanLimits, OperatorId, Scheduler, Task};
 
 use crate::problem::joint_problem;
 use crate::team::Team;
 
-/// The larger of two admissible bounds:
-///
-/// - the depth of the relaxed plan of the whole team (h_max with unit costs, Bonet & Geffner, "Planning as
-///   heuristic search", AIJ 129, 2001): in every time step each robot does at most one action, and without
-///   deletes nothing gets in the way;
-/// - the work, shared out: the landmark cut (Helmert & Domshlak, ICAPS 2009) bounds the number of actions of any
-///   plan, and so many robots do at most so many actions in a time step.
-///
-/// Exact about neither chains with detours nor uneven skills. `None` if the goal is out of reach.
+/// The task of the whole team as one actor, grounded.
+#[derive(Debug)]
+pub struct JointTask {
+    /// The task.
+    pub task: Task,
+    /// Whose each operator is: an index into the team.
+    pub member_of: Vec<u32>,
+    members: u32,
+}
+
+impl JointTask {
+    /// Grounds the task of the `available` members. Errors in words if it cannot be grounded or some operator
+    /// is nobody's.
+    pub fn new(
+        team: &Team,
+        available: &[usize],
+        facts: &BTreeSet<GroundAtom>,
+        goal: &Condition,
+    ) -> Result<Self, String> {
+        let (domain, skills) = team.joint(available);
+        let problem = joint_problem(team, facts, &skills, goal);
+        let task = lamma_planner::ground::ground(&domain, &problem, &Default::default())
+            .map_err(|e| e.to_string())?;
+        let operators = (0..task.operators.len() as u32).map(OperatorId);
+        let member_of = operators
+            .map(|operator| {
+                let act = task.act(operator);
+                let member = act.args.first().and_then(|name| team.member(name));
+                member.map(|m| m as u32).ok_or_else(|| format!("nobody of the team does {act}"))
+            })
+            .collect::<Result<_, _>>()?;
+        Ok(JointTask { task, member_of, members: available.len() as u32 })
+    }
+
+    /// The cheap lower bound: the larger of two admissible ones.
+    ///
+    /// - The depth of the relaxed plan of the whole team (h_max with unit costs, Bonet & Geffner, "Planning as
+    ///   heuristic search", AIJ 129, 2001): in every time step each robot does at most one action, and without
+    ///   deletes nothing gets in the way.
+    /// - The work, shared out: the landmark cut (Helmert & Domshlak, ICAPS 2009) bounds the number of actions of
+    ///   any plan, and so many robots do at most so many actions in a time step.
+    ///
+    /// `None` if the goal is out of reach.
+    pub fn floor(&self) -> Option<u32> {
+        let depth = lamma_planner::hmax_unit(&self.task)?;
+        let work = match LandmarkCut::new(&self.task, Costs::Unit).estimate(&self.task.init, &mut Vec::new())
+        {
+            Estimate::Cost(actions) => actions,
+            Estimate::DeadEnd => 0,
+        };
+        Some(depth.max(work.div_ceil(self.members.max(1))))
+    }
+
+    /// The shortest schedule of at least `from` (a proved bound) and less than `below` steps, or how far the
+    /// bound could be raised within the limits. `None` if the goal is out of reach.
+    pub fn shortest(
+        &self,
+        from: u32,
+        below: Option<u32>,
+        limits: &MakespanLimits,
+        cancel: &AtomicBool,
+    ) -> Option<Makespan> {
+        Some(Scheduler::new(&self.task, &self.member_of)?.shortest(from, below, limits, cancel))
+    }
+}
+
+/// [`JointTask::floor`] of a team in a state; `None` if the goal is out of reach.
 pub fn makespan_lower_bound(
     team: &Team,
     available: &[usize],
     facts: &BTreeSet<GroundAtom>,
     goal: &Condition,
 ) -> Option<u32> {
-    let (domain, skills) = team.joint(available);
-    let problem = joint_problem(team, facts, &skills, goal);
-    let task = lamma_planner::ground::ground(&domain, &problem, &Default::default()).ok()?;
-    let depth = lamma_planner::hmax_unit(&task)?;
-    let robots = u32::try_from(available.len().max(1)).unwrap_or(u32::MAX);
-    let work = match LandmarkCut::new(&task, Costs::Unit).estimate(&task.init, &mut Vec::new()) {
-        Estimate::Cost(actions) => actions,
-        Estimate::DeadEnd => 0,
-    };
-    Some(depth.max(work.div_ceil(robots)))
+    JointTask::new(team, available, facts, goal).ok()?.floor()
 }

@@ -6,6 +6,7 @@ pub mod heuristic;
 mod id_table;
 pub mod interpreter;
 mod lifted;
+pub mod makespan;
 mod numeric;
 pub mod partial_order;
 pub mod plan;
@@ -17,6 +18,7 @@ pub mod validate;
 
 pub use ground::{GroundError, GroundLimits, ground};
 pub use interpreter::{GroundAction, GroundCondition, GroundEffect, Interpreter, WorldState};
+pub use makespan::{Makespan, MakespanLimits, Schedule, Scheduler};
 pub use plan::{GroundAct, Literal, Plan};
 pub use sas::write_sas;
 pub use search::{

@@ -42,7 +42,7 @@ fn operator_cost(task: &Task, operator: OperatorId) -> u64 {
 /// Drops groups of operators that the plan works without (Nakhost & Müller 2010, "Action elimination and
 /// plan neighborhood graph search", section 3): leaving one out, all later ones that then do not apply go
 /// too; if the goal still holds, so it stays.
-pub(super) fn eliminate(task: &Task, mut plan: Vec<OperatorId>) -> Vec<OperatorId> {
+pub(crate) fn eliminate(task: &Task, mut plan: Vec<OperatorId>) -> Vec<OperatorId> {
     let mut state = task.init.clone();
     let mut next = state.clone();
     let mut at = 0;

@@ -14,6 +14,7 @@ use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::{Domain, Problem};
 
+pub(crate) use improve::eliminate;
 pub use limits::{GaveUp, Limits, Outcome, Unsolvable};
 
 use crate::ground::{GroundError, GroundLimits, ground};

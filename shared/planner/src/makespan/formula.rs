@@ -1,0 +1,251 @@
+//! A schedule of so many steps as a propositional formula (Kautz & Selman, "Planning as satisfiability",
+//! ECAI 1992; parallel steps as in Rintanen, Heljanko & Niemelä, "Planning as satisfiability: parallel plans
+//! and algorithms for plan search", AIJ 170, 2006, section 3, "∀-step").
+//!
+//! In each step every agent does at most one action, and the actions of a step may happen in any order. A
+//! variable "literal l before step t" means that l is sure to hold there whatever that order was: it needs a
+//! maker or must have been so before, and nothing in the step may undo it. It need not be set where nobody
+//! relies on it, so two actions that leave a fact undecided may share a step if nobody cares. This is what a
+//! deordered plan ([`crate::partial_order`]) looks like when everybody acts as soon as possible: makers come
+//! strictly before who relies on them, and whoever might undo a link lies outside it or has an excuse.
+
+use std::collections::BTreeMap;
+
+use super::layers::Layer;
+use super::model::{Lit, Maker, Model};
+use super::sat::{Bool, Clauses};
+
+/// The formula, and where to read the schedule.
+pub(super) struct Formula {
+    pub clauses: Clauses,
+    /// For each step, the operators and their variables.
+    pub operators: Vec<Vec<(u32, Bool)>>,
+}
+
+/// The variables of a layer, by position in its lists.
+struct Variables {
+    lits: Vec<Bool>,
+    operators: Vec<Bool>,
+    events: Vec<Bool>,
+}
+
+/// The formula for schedules with these layers; `None` if it has more than `size` literals.
+pub(super) fn formula(model: &Model, layers: &[Layer], size: u64) -> Option<Formula> {
+    let mut clauses = Clauses::new();
+    let variables: Vec<Variables> = layers
+        .iter()
+        .map(|layer| Variables {
+            lits: layer.lits.iter().map(|_| clauses.variable()).collect(),
+            operators: layer.operators.iter().map(|_| clauses.variable()).collect(),
+            events: layer.events.iter().map(|_| clauses.variable()).collect(),
+        })
+        .collect();
+    for (layer, own) in layers.iter().zip(&variables) {
+        derivations(&mut clauses, model, layer, own);
+        exclusive_values(&mut clauses, model, layer, own);
+    }
+    // The first layer's literals are those that hold at the start.
+    variables[0].lits.iter().for_each(|&lit| clauses.clause([lit]));
+    for step in 0..layers.len() - 1 {
+        let mut builder = Step {
+            clauses: &mut clauses,
+            model,
+            layer: &layers[step],
+            own: &variables[step],
+            threatening: BTreeMap::new(),
+            relying: BTreeMap::new(),
+        };
+        builder.one_action_each();
+        builder.requirements();
+        builder.frame(&layers[step + 1], &variables[step + 1]);
+        if clauses.size() > size {
+            return None;
+        }
+    }
+    let last = layers.len() - 1;
+    for goal in &model.goal {
+        let at = layers[last].lits.binary_search(goal).ok();
+        clauses.clause(at.map(|at| variables[last].lits[at]));
+    }
+    let operators = layers.iter().zip(&variables);
+    let operators =
+        operators.map(|(l, v)| l.operators.iter().copied().zip(v.operators.iter().copied()).collect());
+    Some(Formula { operators: operators.collect(), clauses })
+}
+
+/// A derived literal needs one of its bodies.
+fn derivations(clauses: &mut Clauses, model: &Model, layer: &Layer, own: &Variables) {
+    for (lit, &variable) in layer.lits.iter().zip(&own.lits) {
+        let Some(bodies) = model.derivations.get(&lit.0) else { continue };
+        if bodies.iter().any(Vec::is_empty) {
+            continue;
+        }
+        let mut one_of = vec![!variable];
+        for body in bodies {
+            let at: Option<Vec<Bool>> =
+                body.iter().map(|l| layer.lits.binary_search(l).ok().map(|at| own.lits[at])).collect();
+            match at.as_deref() {
+                None => {}
+                Some([only]) => one_of.push(*only),
+                Some(all) => {
+                    let holds = clauses.variable();
+                    all.iter().for_each(|&l| clauses.clause([!holds, l]));
+                    one_of.push(holds);
+                }
+            }
+        }
+        clauses.clause(one_of);
+    }
+}
+
+/// Implied by the rest, but it lets the solver see at once that a thing is in one place only.
+fn exclusive_values(clauses: &mut Clauses, model: &Model, layer: &Layer, own: &Variables) {
+    for group in &model.groups {
+        let values: Vec<Bool> = group
+            .iter()
+            .filter_map(|lit| layer.lits.binary_search(lit).ok().map(|at| own.lits[at]))
+            .collect();
+        clauses.at_most_one(&values);
+    }
+}
+
+/// One step, from a layer to the next.
+struct Step<'a> {
+    clauses: &'a mut Clauses,
+    model: &'a Model,
+    layer: &'a Layer,
+    own: &'a Variables,
+    /// For a literal before the step and an agent: the agent does something that might undo it.
+    threatening: BTreeMap<(Lit, u32), Bool>,
+    /// For a literal before the step and an agent: the agent's action relies on it.
+    relying: BTreeMap<(Lit, u32), Bool>,
+}
+
+impl Step<'_> {
+    fn operator(&self, operator: u32) -> Option<Bool> {
+        self.layer.operators.binary_search(&operator).ok().map(|at| self.own.operators[at])
+    }
+
+    fn event(&self, event: u32) -> Option<Bool> {
+        self.layer.events.binary_search(&event).ok().map(|at| self.own.events[at])
+    }
+
+    fn one_action_each(&mut self) {
+        let mut of_agent = vec![Vec::new(); self.model.agents];
+        for (&operator, &variable) in self.layer.operators.iter().zip(&self.own.operators) {
+            of_agent[self.model.agent_of[operator as usize] as usize].push(variable);
+        }
+        of_agent.iter().for_each(|actions| self.clauses.at_most_one(actions));
+    }
+
+    fn requirements(&mut self) {
+        for (&operator, &variable) in self.layer.operators.iter().zip(&self.own.operators) {
+            let agent = self.model.agent_of[operator as usize];
+            for &lit in self.model.preconditions.row(operator as usize) {
+                if let Some(relies) = self.relies(lit, agent) {
+                    self.clauses.clause([!variable, relies]);
+                }
+            }
+        }
+        for (&event, &variable) in self.layer.events.iter().zip(&self.own.events) {
+            let event = &self.model.events[event as usize];
+            let Some(operator) = self.operator(event.operator) else { continue };
+            self.clauses.clause([!variable, operator]);
+            let agent = self.model.agent_of[event.operator as usize];
+            for &lit in &event.condition {
+                if let Some(relies) = self.relies(lit, agent) {
+                    self.clauses.clause([!variable, relies]);
+                }
+            }
+        }
+    }
+
+    /// That the agent's action relies on the literal, which nobody else may then threaten in this step.
+    /// `None` if the layer does not have the literal.
+    fn relies(&mut self, lit: Lit, agent: u32) -> Option<Bool> {
+        let at = self.layer.lits.binary_search(&lit).ok()?;
+        let holds = self.own.lits[at];
+        if let Some(&known) = self.relying.get(&(lit, agent)) {
+            return Some(known);
+        }
+        let others: Vec<u32> = self.threatening_agents(lit).into_iter().filter(|&a| a != agent).collect();
+        if others.is_empty() {
+            self.relying.insert((lit, agent), holds);
+            return Some(holds);
+        }
+        let relies = self.clauses.variable();
+        self.relying.insert((lit, agent), relies);
+        self.clauses.clause([!relies, holds]);
+        for other in others {
+            let threatens = self.threatens(lit, other);
+            self.clauses.clause([!relies, !threatens]);
+        }
+        Some(relies)
+    }
+
+    fn threatening_agents(&self, lit: Lit) -> Vec<u32> {
+        let threats = self.model.threats[lit.index()].iter();
+        let mut agents: Vec<u32> = threats
+            .filter(|t| self.operator(t.operator).is_some())
+            .map(|t| self.model.agent_of[t.operator as usize])
+            .collect();
+        agents.sort_unstable();
+        agents.dedup();
+        agents
+    }
+
+    /// That the agent does something that might undo the literal, for all it knows.
+    fn threatens(&mut self, lit: Lit, agent: u32) -> Bool {
+        if let Some(&known) = self.threatening.get(&(lit, agent)) {
+            return known;
+        }
+        let threatens = self.clauses.variable();
+        self.threatening.insert((lit, agent), threatens);
+        let model = self.model;
+        for threat in model.threats[lit.index()].iter() {
+            if model.agent_of[threat.operator as usize] != agent {
+                continue;
+            }
+            let Some(operator) = self.operator(threat.operator) else { continue };
+            let mut clause = vec![!operator, threatens];
+            clause.extend(threat.harmless_if.iter().filter_map(|&l| self.relies(l, agent)));
+            self.clauses.clause(clause);
+        }
+        threatens
+    }
+
+    /// What holds after the step: what was made so, or was so and was not undone.
+    fn frame(&mut self, after: &Layer, next: &Variables) {
+        for (&lit, &variable) in after.lits.iter().zip(&next.lits) {
+            if self.model.is_derived(lit) {
+                continue;
+            }
+            let mut support = vec![!variable];
+            support.extend(self.layer.lits.binary_search(&lit).ok().map(|at| self.own.lits[at]));
+            for maker in &self.model.makers[lit.index()] {
+                support.extend(match *maker {
+                    Maker::Operator(operator) => self.operator(operator),
+                    Maker::Event(event) => self.event(event),
+                });
+            }
+            self.clauses.clause(support);
+            self.keep(lit, variable);
+        }
+    }
+
+    /// Nothing in the step may undo the literal, unless the same action makes it good.
+    fn keep(&mut self, lit: Lit, variable: Bool) {
+        let model = self.model;
+        for threat in model.threats[lit.index()].iter() {
+            let Some(operator) = self.operator(threat.operator) else { continue };
+            let agent = model.agent_of[threat.operator as usize];
+            let mut clause = vec![!variable, !operator];
+            let events = model.events_of[threat.operator as usize].clone();
+            let makers = &model.makers[lit.index()];
+            let good = events.filter(|&e| makers.binary_search(&Maker::Event(e)).is_ok());
+            clause.extend(good.filter_map(|e| self.event(e)));
+            clause.extend(threat.harmless_if.iter().filter_map(|&l| self.relies(l, agent)));
+            self.clauses.clause(clause);
+        }
+    }
+}

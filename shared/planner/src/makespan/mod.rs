@@ -1,0 +1,186 @@
+//! The shortest schedule of a team: proved lower bounds of the makespan, and schedules that meet them.
+//!
+//! A schedule is a sequence of steps; in each, every agent does at most one action, and the actions of a step
+//! may happen in any order. The least number of steps is the makespan of the best plan that can be carried out
+//! under the rules of [`crate::partial_order`], where every action takes one step. For a given number of steps
+//! the question "is there a schedule?" is a propositional formula ([`formula`]); that it has no model proves
+//! that no plan of the team is so short.
+
+mod formula;
+mod layers;
+mod model;
+mod sat;
+
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
+
+use crate::search::eliminate;
+use crate::task::{OperatorId, Task};
+use layers::{NEVER, Reach};
+use model::Model;
+use sat::{Found, Fuel, is_true};
+
+/// How much may be spent. The first two are the same on every machine.
+#[derive(Clone, Debug)]
+pub struct MakespanLimits {
+    /// Conflicts of the solver, over all formulas.
+    pub conflicts: u64,
+    /// Literals of a formula: about 20 bytes and, to build and load, 50 ns each.
+    pub size: u64,
+    /// Time on the clock.
+    pub time: Option<Duration>,
+}
+
+impl Default for MakespanLimits {
+    fn default() -> Self {
+        MakespanLimits { conflicts: 20_000, size: 4_000_000, time: None }
+    }
+}
+
+/// Steps of a team; the actions of a step may happen in any order, each agent does at most one of them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Schedule {
+    /// The operators of each step.
+    pub steps: Vec<Vec<OperatorId>>,
+}
+
+impl Schedule {
+    /// The number of steps.
+    pub fn makespan(&self) -> u32 {
+        self.steps.len() as u32
+    }
+
+    /// The operators, step by step.
+    pub fn operators(&self) -> impl Iterator<Item = OperatorId> + '_ {
+        self.steps.iter().flatten().copied()
+    }
+}
+
+/// What is known about the shortest schedule.
+#[derive(Clone, Debug)]
+pub struct Makespan {
+    /// No schedule has fewer steps: proved. `None`: there is no schedule at all, of any length.
+    pub lower_bound: Option<u32>,
+    /// The shortest schedule found, if one shorter than asked for was found.
+    pub schedule: Option<Schedule>,
+}
+
+/// The schedules of a task.
+#[derive(Debug)]
+pub struct Scheduler<'a> {
+    task: &'a Task,
+    model: Model,
+    reach: Reach,
+}
+
+/// What there is to say about schedules of some length.
+enum Answer {
+    Schedule(Schedule),
+    None,
+    Unknown,
+}
+
+impl<'a> Scheduler<'a> {
+    /// Prepares the schedules of a task; `agent_of` says whose each operator is, by numbers from 0. `None` if
+    /// its goal cannot be reached even without deletes.
+    pub fn new(task: &'a Task, agent_of: &[u32]) -> Option<Self> {
+        if !task.impossible.is_empty() || agent_of.len() != task.operators.len() {
+            return None;
+        }
+        let model = Model::new(task, agent_of);
+        let reach = Reach::new(&model);
+        (reach.goal(&model) != NEVER).then_some(Scheduler { task, model, reach })
+    }
+
+    /// The depth of the joint relaxed planning graph: no schedule is shorter.
+    pub fn depth(&self) -> u32 {
+        self.reach.goal(&self.model)
+    }
+
+    /// Looks for the shortest schedule among those of at least `from` and less than `below` steps; `from` must be
+    /// a proved bound. First upwards, where every failure raises the bound and the first success is a shortest
+    /// schedule; when half of the conflicts are spent, downwards from `below`, where every success is better than
+    /// what was known.
+    pub fn shortest(
+        &self,
+        from: u32,
+        below: Option<u32>,
+        limits: &MakespanLimits,
+        cancel: &AtomicBool,
+    ) -> Makespan {
+        let deadline = limits.time.and_then(|time| Instant::now().checked_add(time));
+        let down = below.map_or(0, |_| limits.conflicts / 2);
+        let mut fuel = Fuel { conflicts: limits.conflicts - down, size: limits.size, deadline, cancel };
+        let mut bound = from.max(self.depth());
+        let end = below.unwrap_or(u32::MAX);
+        while bound < end {
+            match self.of_length(bound, &mut fuel) {
+                Answer::None => bound += 1,
+                Answer::Schedule(schedule) => {
+                    return Makespan { lower_bound: Some(bound), schedule: Some(schedule) };
+                }
+                Answer::Unknown => break,
+            }
+        }
+        let mut best = None;
+        fuel.conflicts += down;
+        let mut length = end;
+        while below.is_some() && length > bound + 1 {
+            match self.of_length(length - 1, &mut fuel) {
+                Answer::Schedule(schedule) => {
+                    length = schedule.makespan();
+                    best = Some(schedule);
+                }
+                Answer::None => bound = length,
+                Answer::Unknown => break,
+            }
+        }
+        Makespan { lower_bound: Some(bound), schedule: best }
+    }
+
+    fn of_length(&self, steps: u32, fuel: &mut Fuel<'_>) -> Answer {
+        if self.reach.goal(&self.model) > steps {
+            return Answer::None;
+        }
+        let layers = self.reach.layers(&self.model, steps);
+        let Some(formula) = formula::formula(&self.model, &layers, fuel.size) else { return Answer::Unknown };
+        match formula.clauses.solve(fuel) {
+            (Found::Contradiction, _) => Answer::None,
+            (Found::Stopped, _) => Answer::Unknown,
+            (Found::Model, model) => {
+                let chosen = |step: &Vec<(u32, sat::Bool)>| {
+                    let done = step.iter().filter(|(_, variable)| is_true(&model, *variable));
+                    done.map(|&(operator, _)| OperatorId(operator)).collect::<Vec<_>>()
+                };
+                self.checked(formula.operators.iter().map(chosen).collect())
+            }
+        }
+    }
+
+    /// The schedule without its idle actions, if it leads to the goal: what the formula does not know about
+    /// derived facts may make it wrong.
+    fn checked(&self, steps: Vec<Vec<OperatorId>>) -> Answer {
+        let plan: Vec<OperatorId> = steps.iter().flatten().copied().collect();
+        let mut state = self.task.init.clone();
+        let mut next = state.clone();
+        for &operator in &plan {
+            if !self.task.applicable(&state, operator) {
+                return Answer::Unknown;
+            }
+            self.task.apply(&state, operator, &mut next);
+            std::mem::swap(&mut state, &mut next);
+        }
+        if !self.task.is_goal(&state) {
+            return Answer::Unknown;
+        }
+        let mut kept = eliminate(self.task, plan).into_iter().peekable();
+        let mut steps: Vec<Vec<OperatorId>> = steps
+            .into_iter()
+            .map(|step| step.into_iter().filter(|o| kept.next_if_eq(o).is_some()).collect())
+            .collect();
+        while steps.last().is_some_and(Vec::is_empty) {
+            steps.pop();
+        }
+        Answer::Schedule(Schedule { steps })
+    }
+}

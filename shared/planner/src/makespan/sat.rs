@@ -1,0 +1,159 @@
+//! The SAT solver, with limits that are the same on every machine and a deadline on top.
+
+use std::cell::Cell;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use batsat::{Callbacks, ClauseKind, Lit, Solver, SolverInterface, SolverOpts, Var, lbool};
+
+/// A literal of the formula.
+pub(super) type Bool = Lit;
+
+/// What a search for a model came to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Found {
+    Model,
+    /// There is none.
+    Contradiction,
+    /// A limit was reached.
+    Stopped,
+}
+
+/// Work that may be done, counted down.
+#[derive(Debug)]
+pub(super) struct Fuel<'a> {
+    /// Conflicts of the solver.
+    pub conflicts: u64,
+    /// Literals in all clauses of a formula.
+    pub size: u64,
+    pub deadline: Option<Instant>,
+    pub cancel: &'a AtomicBool,
+}
+
+impl Fuel<'_> {
+    pub fn stopped(&self) -> bool {
+        self.cancel.load(Ordering::Relaxed) || self.deadline.is_some_and(|d| Instant::now() >= d)
+    }
+}
+
+/// Decisions and conflicts between two looks at the clock.
+const LOOK: u32 = 256;
+
+struct Watch<'a> {
+    conflicts: u64,
+    fuel: &'a Fuel<'a>,
+    ticks: Cell<u32>,
+    stopped: Cell<bool>,
+}
+
+impl Callbacks for Watch<'_> {
+    fn on_new_clause(&mut self, _: &[Lit], kind: ClauseKind) {
+        if matches!(kind, ClauseKind::Learnt) {
+            self.conflicts += 1;
+        }
+    }
+
+    fn stop(&self) -> bool {
+        let ticks = self.ticks.get() + 1;
+        self.ticks.set(ticks % LOOK);
+        if ticks == LOOK && self.fuel.stopped() {
+            self.stopped.set(true);
+        }
+        self.stopped.get() || self.conflicts >= self.fuel.conflicts
+    }
+}
+
+/// A formula in conjunctive normal form, while it is built.
+pub(super) struct Clauses {
+    variables: u32,
+    lits: Vec<Lit>,
+    ends: Vec<usize>,
+}
+
+impl Clauses {
+    pub fn new() -> Self {
+        Clauses { variables: 0, lits: Vec::new(), ends: Vec::new() }
+    }
+
+    pub fn variable(&mut self) -> Bool {
+        self.variables += 1;
+        Lit::new(Var::unsafe_from_idx(self.variables - 1), true)
+    }
+
+    pub fn clause(&mut self, lits: impl IntoIterator<Item = Bool>) {
+        self.lits.extend(lits);
+        self.ends.push(self.lits.len());
+    }
+
+    /// Literals in all clauses.
+    pub fn size(&self) -> u64 {
+        self.lits.len() as u64
+    }
+
+    /// At most one of these, by groups: pairwise within a group, and at most one group (the commander
+    /// encoding; Klieber & Kwon, "Efficient CNF encoding for selecting 1 from n objects", CFV 2007).
+    pub fn at_most_one(&mut self, lits: &[Bool]) {
+        const GROUP: usize = 5;
+        let mut level = lits.to_vec();
+        while level.len() > GROUP {
+            let mut commanders = Vec::with_capacity(level.len().div_ceil(GROUP));
+            for group in level.chunks(GROUP) {
+                self.exclude(group);
+                let commander = self.variable();
+                group.iter().for_each(|&lit| self.clause([!lit, commander]));
+                commanders.push(commander);
+            }
+            level = commanders;
+        }
+        self.exclude(&level);
+    }
+
+    fn exclude(&mut self, lits: &[Bool]) {
+        for (i, &a) in lits.iter().enumerate() {
+            lits[..i].iter().for_each(|&b| self.clause([!a, !b]));
+        }
+    }
+
+    /// Looks for a model; `fuel` is used up by what that takes. A model is given as the values of all
+    /// variables.
+    pub fn solve(&self, fuel: &mut Fuel<'_>) -> (Found, Vec<bool>) {
+        if fuel.conflicts == 0 || fuel.stopped() {
+            return (Found::Stopped, Vec::new());
+        }
+        let watch = Watch { conflicts: 0, fuel, ticks: Cell::new(0), stopped: Cell::new(false) };
+        let mut solver = Solver::new(SolverOpts::default(), watch);
+        for _ in 0..self.variables {
+            solver.new_var_default();
+        }
+        let mut start = 0;
+        let mut clause = Vec::new();
+        let mut possible = true;
+        for &end in &self.ends {
+            clause.clear();
+            clause.extend_from_slice(&self.lits[start..end]);
+            start = end;
+            possible = possible && solver.add_clause_reuse(&mut clause);
+        }
+        let answer = if possible { solver.solve_limited(&[]) } else { lbool::FALSE };
+        let found = if answer == lbool::TRUE {
+            Found::Model
+        } else if answer == lbool::FALSE {
+            Found::Contradiction
+        } else {
+            Found::Stopped
+        };
+        let model = match found {
+            Found::Model => solver.get_model().iter().map(|&value| value == lbool::TRUE).collect(),
+            _ => Vec::new(),
+        };
+        let used = solver.num_conflicts();
+        drop(solver);
+        fuel.conflicts = fuel.conflicts.saturating_sub(used);
+        (found, model)
+    }
+}
+
+/// Whether the model makes the variable of this positive literal true.
+pub(super) fn is_true(model: &[bool], lit: Bool) -> bool {
+    model.get(lit.var().idx() as usize).copied().unwrap_or(false)
+}
