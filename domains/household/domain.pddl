@@ -19,10 +19,11 @@
 ; They are never goals.
 
 (define (domain household)
-  (:requirements :strips :typing :equality :negative-preconditions :conditional-effects)
+  (:requirements :strips :typing :equality :negative-preconditions :disjunctive-preconditions
+                 :universal-preconditions :conditional-effects)
 
   (:types
-    robot thing liquid count skill - object
+    robot crew thing liquid count skill - object ; a crew: robots that can lift something together
     fixture item - thing              ; what stays where it is, and what can be carried
     vessel - item                     ; what can be carried and can hold something
     heater basin - fixture            ; what heats what lies in it, and what a tap runs into
@@ -50,7 +51,8 @@
     water coffee wine - liquid
     none one two three four - count
     GoToObject PickupObject PutObject OpenObject CloseObject SwitchOn SwitchOff SliceObject BreakObject
-    CleanObject DirtyObject FillObject EmptyObject DropHandObject ThrowObject PushObject PullObject - skill)
+    CleanObject DirtyObject FillObject EmptyObject UseUpObject
+    DropHandObject ThrowObject PushObject PullObject - skill)
 
   (:predicates
     ; --- the state that tasks speak of
@@ -101,6 +103,7 @@
     (dirtyable ?x - thing)
     (fillable ?x - thing)
     (pushable ?x - thing)
+    (consumable ?x - thing)           ; soap, tissues, paper: what is used up one day
     (receptacle ?c - thing)
     (heat-source ?c - thing)
     (cold-source ?c - thing)
@@ -112,8 +115,10 @@
     (controls ?s ?d - thing)         ; switching s runs the heat source d: a knob its burner, a toaster itself
     (fills ?s ?b - thing)             ; the tap s runs into the basin b
     (can-lift ?r - robot ?x - item)
-    (can-lift-together ?r ?h - robot ?x - item)
-    (can-help-lift ?h - robot ?x - item)
+    (in-crew ?r - robot ?g - crew)
+    (can-lift-together ?g - crew ?x - item)
+    (can-help-lift ?h - robot ?x - item) ; is in a crew that can lift it
+    (exclusive ?c - fixture)          ; one robot at a time stands here; only where a scene or a task says so
     (one-handed ?r - robot)
     (many-handed ?r - robot)
     (next ?n ?m - count))
@@ -122,7 +127,10 @@
 
   (:action GoToObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (has ?r GoToObject) (placed ?x) (mobile ?r))
+    :precondition (and (has ?r GoToObject) (placed ?x) (mobile ?r)
+                       (forall (?c - fixture ?o - robot)
+                         (or (not (exclusive ?c)) (= ?o ?r) (not (at ?o ?c))
+                             (and (not (= ?x ?c)) (not (in ?x ?c))))))
     :effect (and
       (forall (?y - thing) (not (at ?r ?y)))
       (forall (?f - Floor) (at ?r ?f))
@@ -135,7 +143,8 @@
   (:action PickupObject
     :parameters (?r - robot ?x - item ?c - thing)
     :precondition (and (has ?r PickupObject) (can-lift ?r ?x) (hand-free ?r) (pickupable ?x)
-                       (in ?x ?c) (at ?r ?x) (at ?r ?c) (exposed ?c) (accessible ?c))
+                       (in ?x ?c) (at ?r ?x) (at ?r ?c) (exposed ?c) (accessible ?c)
+                       (forall (?h - robot) (not (supporting ?h ?x))))
     :effect (and
       (holding ?r ?x)
       (not (in ?x ?c))
@@ -240,8 +249,9 @@
     :effect (moved ?x))
 
   ; ---------------------------------------------------------------- carrying together
-  ; What is too heavy for one robot is lifted by two: ?h offers a hand, ?r leads. Until it is put down, ?h
-  ; stays with ?r. `can-lift-together` is only true of pairs of which neither can lift the thing alone.
+  ; What is too heavy for one robot is lifted by a crew: all of it but one offer a hand, and that one leads.
+  ; Until the thing is put down they stay with the leader. No one of a crew is idle: without any of them the
+  ; others could not lift the thing.
 
   (:action SupportObject
     :parameters (?h - robot ?x - item)
@@ -256,15 +266,29 @@
         (when (and (many-handed ?h) (next ?m ?n) (free-hands ?h ?n))
               (and (not (free-hands ?h ?n)) (free-hands ?h ?m))))))
 
+  ; Takes the hand back, as long as nothing is lifted.
+  (:action WithdrawHand
+    :parameters (?h - robot ?x - item)
+    :precondition (and (has ?h PickupObject) (supporting ?h ?x) (placed ?x))
+    :effect (and
+      (not (supporting ?h ?x))
+      (mobile ?h)
+      (hand-free ?h)
+      (forall (?n ?m - count)
+        (when (and (many-handed ?h) (next ?n ?m) (free-hands ?h ?n))
+              (and (not (free-hands ?h ?n)) (free-hands ?h ?m))))))
+
   (:action PickupTogether
-    :parameters (?r ?h - robot ?x - item ?c - thing)
-    :precondition (and (has ?r PickupObject) (can-lift-together ?r ?h ?x) (supporting ?h ?x)
+    :parameters (?r - robot ?g - crew ?x - item ?c - thing)
+    :precondition (and (has ?r PickupObject) (in-crew ?r ?g) (can-lift-together ?g ?x)
+                       (forall (?h - robot) (or (not (in-crew ?h ?g)) (= ?h ?r) (supporting ?h ?x)))
+                       (forall (?h - robot) (or (in-crew ?h ?g) (not (supporting ?h ?x))))
                        (hand-free ?r) (mobile ?r) (pickupable ?x)
                        (in ?x ?c) (at ?r ?x) (at ?r ?c) (exposed ?c) (accessible ?c))
     :effect (and
       (holding ?r ?x)
-      (helping ?h ?r)
-      (forall (?y - thing) (not (at ?h ?y)))
+      (forall (?h - robot) (when (and (in-crew ?h ?g) (not (= ?h ?r))) (helping ?h ?r)))
+      (forall (?h - robot ?y - thing) (when (and (in-crew ?h ?g) (not (= ?h ?r))) (not (at ?h ?y))))
       (not (in ?x ?c))
       (not (placed ?x))
       (not (exposed ?x))
@@ -279,18 +303,19 @@
       (when (cutter ?x) (armed ?r))))
 
   (:action PutTogether
-    :parameters (?r ?h - robot ?x - item ?c - thing)
+    :parameters (?r - robot ?g - crew ?x - item ?c - thing)
     :precondition (and (has ?r PutObject)
-                       (can-lift-together ?r ?h ?x) (holding ?r ?x) (helping ?h ?r) (supporting ?h ?x)
+                       (in-crew ?r ?g) (can-lift-together ?g ?x) (holding ?r ?x)
+                       (forall (?h - robot)
+                         (or (not (in-crew ?h ?g)) (= ?h ?r) (and (helping ?h ?r) (supporting ?h ?x))))
                        (accepts ?c ?x) (accessible ?c) (exposed ?c) (at ?r ?c))
     :effect (and
       (not (holding ?r ?x))
-      (not (supporting ?h ?x))
-      (not (helping ?h ?r))
-      (mobile ?h)
-      (at ?h ?c)
-      (at ?h ?x)
-      (forall (?f - Floor) (at ?h ?f))
+      (forall (?h - robot)
+        (when (and (in-crew ?h ?g) (not (= ?h ?r)))
+              (and (not (supporting ?h ?x)) (not (helping ?h ?r)) (mobile ?h) (hand-free ?h)
+                   (at ?h ?c) (at ?h ?x))))
+      (forall (?h - robot ?f - Floor) (when (and (in-crew ?h ?g) (not (= ?h ?r))) (at ?h ?f)))
       (in ?x ?c)
       (placed ?x)
       (at ?r ?x)
@@ -317,9 +342,8 @@
       (when (cutter ?x) (not (armed ?r)))
       (forall (?k - item)
         (when (and (many-handed ?r) (cutter ?x) (cutter ?k) (not (= ?k ?x)) (holding ?r ?k)) (armed ?r)))
-      (hand-free ?h)
-      (forall (?n ?m - count)
-        (when (and (many-handed ?h) (next ?n ?m) (free-hands ?h ?n))
+      (forall (?h - robot ?n ?m - count)
+        (when (and (in-crew ?h ?g) (not (= ?h ?r)) (many-handed ?h) (next ?n ?m) (free-hands ?h ?n))
               (and (not (free-hands ?h ?n)) (free-hands ?h ?m))))))
 
   ; ---------------------------------------------------------------- doors and switches
@@ -426,7 +450,38 @@
     :precondition (and (has ?r EmptyObject) (fillable ?x) (at ?r ?x) (exposed ?x) (filled ?x))
     :effect (and (not (filled ?x)) (forall (?l - liquid) (not (filled-with ?x ?l)))))
 
+  ; The last of the soap, the tissues, the paper.
+  (:action UseUpObject
+    :parameters (?r - robot ?x - thing)
+    :precondition (and (has ?r UseUpObject) (consumable ?x) (at ?r ?x) (exposed ?x) (not (used-up ?x)))
+    :effect (used-up ?x))
+
   ; ---------------------------------------------------------------- nobody's skill
+  ; What happens in a home without the team: somebody carries a thing elsewhere, somebody shuts a door.
+
+  (:action ObjectMoved
+    :parameters (?x - item ?from ?to - thing)
+    :precondition (and (in ?x ?from) (accepts ?to ?x) (accessible ?to) (exposed ?to) (not (= ?from ?to))
+                       (not (heating ?to)) (not (cooling ?to)) (not (rinsing ?to))
+                       (forall (?h - robot) (not (supporting ?h ?x))))
+    :effect (and
+      (not (in ?x ?from))
+      (in ?x ?to)
+      (not (exposed ?x))
+      (when (fixed ?to) (exposed ?x))
+      (not (heating ?x))
+      (not (cooling ?x))
+      (forall (?r - robot) (not (at ?r ?x)))))
+
+  (:action DoorClosed
+    :parameters (?x - thing)
+    :precondition (and (openable ?x) (exposed ?x) (open ?x))
+    :effect (and
+      (not (open ?x))
+      (when (runs-closed ?x) (can-switch-on ?x))
+      (when (encloses ?x) (not (accessible ?x)))
+      (forall (?y - item) (when (and (encloses ?x) (fixed ?x) (in ?y ?x)) (not (exposed ?y))))))
+
   ; What the arbiter does to the world when a robot's process is gone: what it held, alone or with another,
   ; lies on the floor, and the robot is nowhere.
 
@@ -440,19 +495,26 @@
       (forall (?y - thing) (not (at ?r ?y)))
       (forall (?x - item ?f - Floor)
         (when (holding ?r ?x) (and (not (holding ?r ?x)) (in ?x ?f) (placed ?x) (exposed ?x))))
-      ; it led: its helper is free again
+      ; it led: its helpers are free again
       (forall (?h - robot) (when (helping ?h ?r) (and (not (helping ?h ?r)) (mobile ?h) (hand-free ?h))))
       (forall (?h - robot ?n ?m - count)
         (when (and (helping ?h ?r) (next ?n ?m) (free-hands ?h ?n))
               (and (not (free-hands ?h ?n)) (free-hands ?h ?m))))
       (forall (?h - robot ?x - item) (when (helping ?h ?r) (not (supporting ?h ?x))))
       (forall (?h - robot ?f - Floor) (when (helping ?h ?r) (at ?h ?f)))
-      ; it helped: the leader cannot hold on alone
+      ; it helped: the leader cannot hold on without it, and who else helped with that is free again
       (forall (?x - item) (not (supporting ?r ?x)))
       (forall (?l - robot) (when (helping ?r ?l) (and (not (helping ?r ?l)) (hand-free ?l))))
       (forall (?l - robot ?n ?m - count)
         (when (and (helping ?r ?l) (next ?n ?m) (free-hands ?l ?n))
               (and (not (free-hands ?l ?n)) (free-hands ?l ?m))))
+      (forall (?l ?h - robot ?x - item ?f - Floor)
+        (when (and (helping ?r ?l) (helping ?h ?l) (not (= ?h ?r)) (supporting ?r ?x) (supporting ?h ?x))
+              (and (not (helping ?h ?l)) (not (supporting ?h ?x)) (mobile ?h) (hand-free ?h) (at ?h ?f))))
+      (forall (?l ?h - robot ?x - item ?n ?m - count)
+        (when (and (helping ?r ?l) (helping ?h ?l) (not (= ?h ?r)) (supporting ?r ?x) (supporting ?h ?x)
+                   (next ?n ?m) (free-hands ?h ?n))
+              (and (not (free-hands ?h ?n)) (free-hands ?h ?m))))
       (forall (?l - robot ?x - item ?f - Floor)
         (when (and (helping ?r ?l) (supporting ?r ?x))
               (and (not (holding ?l ?x)) (in ?x ?f) (placed ?x) (exposed ?x)))))))

@@ -57,4 +57,7 @@ pub enum HouseError {
     /// An object of the task cannot be.
     #[error("objects: {0}")]
     BadObject(String),
+    /// A rule of the task cannot be.
+    #[error("rules: {0}")]
+    BadRule(String),
 }

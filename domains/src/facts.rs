@@ -1,24 +1,24 @@
 //! The facts that hold at the start of a run.
 
+use std::collections::BTreeSet;
+
 use lamma_pddl::ast::{GroundAtom, Init};
 
+use crate::crews::{self, Crew};
 use crate::goal::PropertyValue;
 use crate::kinds::{self, Kinds};
 use crate::property::Property;
 use crate::robots::Robot;
 use crate::world::{Rules, Thing};
 
-/// Rounding in masses and capacities that is not meant, in kilograms.
-const SLACK_KG: f64 = 1e-9;
-
 /// All facts of the start, static ones first.
-pub(crate) fn initial(things: &[Thing], team: &[Robot], rules: Rules) -> Vec<Init> {
+pub(crate) fn initial(things: &[Thing], team: &[Robot], crews: &[Crew], rules: &Rules) -> Vec<Init> {
     let mut facts = Facts(Vec::new());
     for thing in things {
         facts.statics(thing, rules);
     }
     facts.compatibility(things);
-    facts.lifting(things, team);
+    facts.lifting(things, team, crews);
     for thing in things {
         facts.state(thing, things);
     }
@@ -42,7 +42,7 @@ impl Facts {
     }
 
     /// What never changes about one thing.
-    fn statics(&mut self, thing: &Thing, rules: Rules) {
+    fn statics(&mut self, thing: &Thing, rules: &Rules) {
         let (x, kind) = (thing.name.as_str(), thing.kind.as_str());
         let table = [
             ("openable", "openable"),
@@ -63,6 +63,8 @@ impl Facts {
         self.when(thing.can("pickupable") || thing.can("moveable"), "pushable", &[x]);
         self.when(thing.can("breakable") && kinds::shatters(kind), "shatters", &[x]);
         self.when(kinds::cooks_when_cut(kind), "cooks-when-cut", &[x]);
+        self.when(kinds::consumable(kind), "consumable", &[x]);
+        self.when(rules.is_exclusive(thing), "exclusive", &[x]);
         self.when(kind == "CoffeeMachine", "brews", &[x]);
         self.when(kind == "Microwave", "runs-closed", &[x]);
         self.when(kinds::cutter(kind) && !rules.knife_free, "cutter", &[x]);
@@ -89,27 +91,27 @@ impl Facts {
     }
 
     /// Who can lift what, alone or with whom.
-    fn lifting(&mut self, things: &[Thing], team: &[Robot]) {
+    fn lifting(&mut self, things: &[Thing], team: &[Robot], crews: &[Crew]) {
         let carries = ["PickupObject", "PutObject", "DropHandObject", "ThrowObject"];
-        let alone = |robot: &Robot, thing: &Thing| thing.mass_kg <= robot.capacity_kg + SLACK_KG;
         for thing in things.iter().filter(|t| t.can("pickupable")) {
-            let x = thing.name.as_str();
             for robot in team.iter().filter(|r| carries.iter().any(|s| r.has(s))) {
-                self.when(alone(robot, thing), "can-lift", &[&robot.name, x]);
+                self.when(crews::lifts(robot, thing), "can-lift", &[&robot.name, &thing.name]);
             }
-            let weak: Vec<&Robot> =
-                team.iter().filter(|r| r.has("PickupObject") && !alone(r, thing)).collect();
-            for helper in &weak {
-                let leads = |leader: &&&Robot| {
-                    let together = leader.capacity_kg + helper.capacity_kg + SLACK_KG;
-                    leader.name != helper.name && thing.mass_kg <= together
-                };
-                let leaders: Vec<&&Robot> = weak.iter().filter(leads).collect();
-                self.when(!leaders.is_empty(), "can-help-lift", &[&helper.name, x]);
-                for leader in leaders {
-                    self.add("can-lift-together", &[&leader.name, &helper.name, x]);
-                }
+        }
+        for crew in crews {
+            for member in &crew.members {
+                self.add("in-crew", &[&team[*member].name, &crew.name]);
             }
+            for thing in &crew.lifts {
+                self.add("can-lift-together", &[&crew.name, thing]);
+            }
+        }
+        let helps: BTreeSet<(usize, &str)> = crews
+            .iter()
+            .flat_map(|c| c.members.iter().flat_map(|m| c.lifts.iter().map(|x| (*m, x.as_str()))))
+            .collect();
+        for (member, thing) in helps {
+            self.add("can-help-lift", &[&team[member].name, thing]);
         }
     }
 
@@ -170,7 +172,7 @@ impl Facts {
         }
     }
 
-    fn robot(&mut self, robot: &Robot, things: &[Thing], rules: Rules) {
+    fn robot(&mut self, robot: &Robot, things: &[Thing], rules: &Rules) {
         let r = robot.name.as_str();
         for floor in things.iter().filter(|t| t.kind == "Floor") {
             self.add("at", &[r, &floor.name]);

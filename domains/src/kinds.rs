@@ -197,6 +197,11 @@ pub fn cutter(kind: &str) -> bool {
     matches!(kind, "Knife" | "ButterKnife")
 }
 
+/// Whether one day there is none of it left (AI2-THOR's `canBeUsedUp`).
+pub fn consumable(kind: &str) -> bool {
+    matches!(kind, "PaperTowelRoll" | "SoapBottle" | "TissueBox" | "ToiletPaper")
+}
+
 /// Whether it is in pieces once broken, so that nobody can pick it up. Screens only crack, and an egg is food
 /// in either state.
 pub fn shatters(kind: &str) -> bool {

@@ -1,6 +1,7 @@
 //! The household: robots, scenes, union domain, task files.
 
 pub mod condition;
+pub mod crews;
 pub mod error;
 mod facts;
 pub mod generate;

@@ -89,7 +89,7 @@ impl Property {
             Property::Cooked => can("cookable") || kinds::cooks_when_cut(kind),
             Property::Broken => can("breakable"),
             Property::Dirty => can("dirtyable") || kinds::washable(kind),
-            Property::UsedUp => can("canBeUsedUp"),
+            Property::UsedUp => kinds::consumable(kind),
             Property::PickedUp => can("pickupable"),
             Property::Filled | Property::FillLiquid => can("canFillWithLiquid"),
             Property::Temperature => true,

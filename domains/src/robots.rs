@@ -12,7 +12,7 @@ use crate::goal::name_or_object;
 use crate::{HouseError, nearest};
 
 /// Every skill a robot can have. Each is an action of the union domain, with the robot as its first parameter.
-pub const SKILLS: [&str; 17] = [
+pub const SKILLS: [&str; 18] = [
     "GoToObject",
     "PickupObject",
     "PutObject",
@@ -26,15 +26,16 @@ pub const SKILLS: [&str; 17] = [
     "DirtyObject",
     "FillObject",
     "EmptyObject",
+    "UseUpObject",
     "DropHandObject",
     "ThrowObject",
     "PushObject",
     "PullObject",
 ];
 
-/// Actions that come with a skill: who can pick things up can also do so together with another robot.
+/// Actions that come with a skill: who can pick things up can also do so together with other robots.
 const TOGETHER: [(&str, &[&str]); 2] =
-    [("PickupObject", &["SupportObject", "PickupTogether"]), ("PutObject", &["PutTogether"])];
+    [("PickupObject", &["SupportObject", "WithdrawHand", "PickupTogether"]), ("PutObject", &["PutTogether"])];
 
 /// The most hands a robot can have.
 pub const MAX_HANDS: u8 = 4;
@@ -214,11 +215,11 @@ mod tests {
                 union.actions.iter().find(|a| a.name == *skill).unwrap_or_else(|| panic!("no {skill}"));
             assert_eq!(action.params[0].types[0], "robot", "{skill}");
         }
-        // Nobody's skill, but the arbiter's.
+        // Nobody's skill: what happens without the team.
         let all = actions_of(SKILLS);
         let others: Vec<&str> =
             union.actions.iter().map(|a| a.name.as_str()).filter(|a| !all.contains(a)).collect();
-        assert_eq!(others, ["RobotLost"]);
+        assert_eq!(others, ["ObjectMoved", "DoorClosed", "RobotLost"]);
     }
 
     #[test]

@@ -102,7 +102,7 @@ impl Task {
     /// The world the task starts in and its goal there.
     pub fn world(&self, seed: u64) -> Result<(WorldSetup, Goal), WorldError> {
         let team = robots::team(&self.team)?;
-        let setup = setup_with(&self.scene, &team, self.objects.as_deref(), seed, self.rules)?;
+        let setup = setup_with(&self.scene, &team, self.objects.as_deref(), seed, &self.rules)?;
         let goal = condition(&self.goal, &setup)?;
         Ok((setup, goal))
     }

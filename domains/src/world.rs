@@ -10,7 +10,7 @@ use crate::goal::PropertyValue;
 use crate::kinds::{self, Kinds};
 use crate::robots::{self, Robot};
 use crate::scene::{self, SceneObject};
-use crate::{HouseError, facts, nearest, place, property};
+use crate::{HouseError, crews, facts, nearest, place, property};
 
 /// Objects of a task's own: these many of a type, there, so.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -120,7 +120,7 @@ pub struct WorldSetup {
     pub scene: String,
     /// Every action of every robot.
     pub domain: Domain,
-    /// The robots, then the things, by name and type.
+    /// The robots, then the things, then the crews, by name and type.
     pub objects: Vec<TypedName>,
     /// What holds at the start.
     pub init: Vec<Init>,
@@ -138,6 +138,14 @@ impl WorldSetup {
         self.things.iter().find(|t| t.name.eq_ignore_ascii_case(name))
     }
 
+    /// The domain of what the team can do: every action but those that happen without it.
+    pub fn team_domain(&self) -> Domain {
+        let skills = robots::actions_of(robots::SKILLS);
+        let mut domain = self.domain.clone();
+        domain.actions.retain(|action| skills.contains(&action.name.as_str()));
+        domain
+    }
+
     /// The facts that hold at the start.
     pub fn facts(&self) -> impl Iterator<Item = &GroundAtom> {
         self.init.iter().filter_map(|init| match init {
@@ -148,10 +156,51 @@ impl WorldSetup {
 }
 
 /// Rules of a task that differ from the usual.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Rules {
     /// Slicing needs no knife.
+    #[serde(skip_serializing_if = "is_false")]
     pub knife_free: bool,
+    /// Furniture and fixtures, by type or name, where only one robot at a time can stand.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub exclusive: Vec<String>,
+    /// Going takes as long as the way is, instead of one time step; see [`crate::travel`].
+    #[serde(skip_serializing_if = "is_false")]
+    pub travel: bool,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_false(flag: &bool) -> bool {
+    !flag
+}
+
+impl Rules {
+    /// Whether only one robot at a time can stand at the thing.
+    pub(crate) fn is_exclusive(&self, thing: &Thing) -> bool {
+        self.exclusive.iter().any(|name| *name == thing.kind || *name == thing.name)
+    }
+
+    /// Names in the rules that the world does not know.
+    fn check(&self, things: &[Thing]) -> Result<(), HouseError> {
+        for name in &self.exclusive {
+            let Some(thing) = things.iter().find(|t| *name == t.kind || *name == t.name) else {
+                let names: BTreeSet<&str> = things
+                    .iter()
+                    .filter(|t| !t.can("pickupable"))
+                    .flat_map(|t| [t.name.as_str(), &t.kind])
+                    .collect();
+                let hint = nearest::hint(name, names);
+                return Err(HouseError::BadRule(format!("exclusive: this scene has no `{name}`{hint}")));
+            };
+            if thing.can("pickupable") || thing.kind == "Floor" {
+                let what =
+                    format!("exclusive: `{name}` is no furniture or fixture; name one, such as Fridge");
+                return Err(HouseError::BadRule(what));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The world of a scene and a team under the usual rules. `objects` replaces the scene's movable things;
@@ -162,7 +211,7 @@ pub fn setup(
     objects: Option<&[ObjectSpec]>,
     seed: u64,
 ) -> Result<WorldSetup, HouseError> {
-    setup_with(scene, team, objects, seed, Rules::default())
+    setup_with(scene, team, objects, seed, &Rules::default())
 }
 
 /// [`setup`] under a task's own rules.
@@ -171,7 +220,7 @@ pub fn setup_with(
     team: &[Robot],
     objects: Option<&[ObjectSpec]>,
     seed: u64,
-    rules: Rules,
+    rules: &Rules,
 ) -> Result<WorldSetup, HouseError> {
     for robot in team {
         robot.check()?;
@@ -181,17 +230,22 @@ pub fn setup_with(
     if let Some(specs) = objects {
         replace_movables(&mut things, specs, &scene.scene, seed)?;
     }
+    rules.check(&things)?;
     let domain = robots::union_domain().clone();
+    let crews = crews::crews(&things, team);
     let taken = |name: &str| {
         things.iter().any(|t| t.name.eq_ignore_ascii_case(name))
             || domain.constants.iter().any(|c| c.name == *name)
+            || crews.iter().any(|c| c.name.eq_ignore_ascii_case(name))
     };
     if let Some(robot) = team.iter().find(|r| taken(&r.name)) {
         let what = "a thing of the world has this name; choose another".to_string();
         return Err(HouseError::BadRobot { robot: robot.name.clone(), what });
     }
     let robot_objects = team.iter().map(|r| TypedName::new(&r.name, "robot"));
-    let objects = robot_objects.chain(things.iter().map(|t| TypedName::new(&t.name, &t.kind))).collect();
+    let crew_objects = crews.iter().map(|c| TypedName::new(&c.name, "crew"));
+    let thing_objects = things.iter().map(|t| TypedName::new(&t.name, &t.kind));
+    let objects = robot_objects.chain(thing_objects).chain(crew_objects).collect();
     let members = team
         .iter()
         .map(|robot| Member {
@@ -205,7 +259,7 @@ pub fn setup_with(
     Ok(WorldSetup {
         scene: scene.scene,
         objects,
-        init: facts::initial(&things, team, rules),
+        init: facts::initial(&things, team, &crews, rules),
         members,
         on_lost: Some(Name::new("RobotLost")),
         things,

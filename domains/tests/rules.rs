@@ -4,7 +4,7 @@
 mod common;
 
 use common::{World, able, robot};
-use lamma_domains::world::Rules;
+use lamma_domains::world::{Rules, setup_with};
 
 /// A kitchen with just these things: everything else would only be in the way.
 const KITCHEN: &str = r#"[
@@ -130,22 +130,6 @@ fn containers_take_what_ai2_thor_lets_them_take() {
 }
 
 #[test]
-fn too_heavy_is_too_heavy_and_two_lift_together() {
-    let team = [robot("r1", 0.4, 1), robot("r2", 0.7, 1), robot("r3", 0.1, 1)];
-    let mut w = World::new("FloorPlan6", &team, Some(KITCHEN)); // a mug weighs 1.0 kg
-    w.run("GoToObject r1 Mug_1\nGoToObject r2 Mug_1\nGoToObject r3 Mug_1");
-    w.refuses("PickupObject r1 Mug_1 CounterTop_1", "can-lift r1 mug_1");
-    w.refuses("PickupTogether r1 r2 Mug_1 CounterTop_1", "supporting r2 mug_1");
-    w.refuses("SupportObject r3 Mug_1", "can-help-lift r3 mug_1");
-    w.run("SupportObject r2 Mug_1");
-    w.refuses("GoToObject r2 Apple_1", "mobile r2");
-    w.run("PickupTogether r1 r2 Mug_1 CounterTop_1\nGoToObject r1 CoffeeMachine_1");
-    w.refuses("GoToObject r2 Apple_1", "mobile r2");
-    w.run("PutTogether r1 r2 Mug_1 CoffeeMachine_1\nGoToObject r2 Apple_1");
-    w.check(&["(in Mug_1 CoffeeMachine_1)", "(hand-free r1)", "(hand-free r2)", "!(supporting r2 Mug_1)"]);
-}
-
-#[test]
 fn slicing_needs_a_knife_in_hand_and_cannot_be_undone() {
     let mut w = kitchen();
     w.run("GoToObject r1 Apple_1");
@@ -163,7 +147,8 @@ fn slicing_needs_a_knife_in_hand_and_cannot_be_undone() {
 
 #[test]
 fn a_task_can_do_without_the_knife() {
-    let mut w = World::with("FloorPlan6", &able(1), Some(KITCHEN), Rules { knife_free: true });
+    let rules = Rules { knife_free: true, ..Rules::default() };
+    let mut w = World::with("FloorPlan6", &able(1), Some(KITCHEN), &rules);
     w.run("GoToObject r1 Apple_1\nSliceObject r1 Apple_1");
     w.run("GoToObject r1 Knife_1\nPickupObject r1 Knife_1 CounterTop_2\nPutObject r1 Knife_1 CounterTop_2");
     w.run("GoToObject r1 Bread_1\nSliceObject r1 Bread_1");
@@ -377,19 +362,49 @@ fn a_lost_robot_leaves_what_it_held_on_the_floor() {
 }
 
 #[test]
-fn a_lost_helper_or_leader_sets_the_other_free() {
-    let team = [robot("r1", 0.6, 1), robot("r2", 0.6, 1)];
-    for (lost, left) in [("r1", "r2"), ("r2", "r1")] {
-        let mut w = World::new("FloorPlan6", &team, Some(KITCHEN));
-        w.run("GoToObject r1 Mug_1\nGoToObject r2 Mug_1\nSupportObject r2 Mug_1");
-        w.run("PickupTogether r1 r2 Mug_1 CounterTop_1");
-        w.run(&format!("RobotLost {lost}"));
-        w.check(&["(in Mug_1 Floor_1)", "(placed Mug_1)", "!(holding r1 Mug_1)", "!(supporting r2 Mug_1)"]);
-        w.check(&[
-            &format!("(hand-free {left})"),
-            &format!("(mobile {left})"),
-            &format!("!(hand-free {lost})"),
-        ]);
-        w.run(&format!("GoToObject {left} Apple_1\nPickupObject {left} Apple_1 CounterTop_1"));
+fn soap_and_paper_are_used_up_once() {
+    let things = r#"[{"type": "ToiletPaper", "in": "Toilet"}, {"type": "Plunger", "in": "Floor"}]"#;
+    let mut w = World::new("FloorPlan414", &able(1), Some(things));
+    w.run("GoToObject r1 ToiletPaper_1");
+    w.check(&["!(used-up ToiletPaper_1)"]);
+    w.run("UseUpObject r1 ToiletPaper_1");
+    w.check(&["(used-up ToiletPaper_1)"]);
+    w.refuses("UseUpObject r1 ToiletPaper_1", "used-up toiletpaper_1");
+    w.run("GoToObject r1 Plunger_1");
+    w.refuses("UseUpObject r1 Plunger_1", "consumable plunger_1");
+}
+
+#[test]
+fn robots_do_not_block_each_other_unless_the_task_says_so() {
+    let mut w = kitchen();
+    w.run("GoToObject r1 Fridge_1\nGoToObject r2 Fridge_1");
+    let rules = Rules { exclusive: vec!["Fridge".to_string()], ..Rules::default() };
+    let mut w = World::with("FloorPlan6", &able(2), Some(KITCHEN), &rules);
+    w.run("GoToObject r1 Fridge_1");
+    w.refuses("GoToObject r2 Fridge_1", "at");
+    w.refuses("GoToObject r2 Egg_1", "at"); // which lies in the fridge
+    w.run("GoToObject r1 Egg_1\nGoToObject r1 CounterTop_1\nGoToObject r2 Egg_1\nGoToObject r1 CounterTop_1");
+    w.run("GoToObject r2 CounterTop_1"); // only the fridge is exclusive
+}
+
+#[test]
+fn rules_speak_of_furniture_of_the_scene() {
+    for (name, wanted) in
+        [("Frige", "did you mean `Fridge`"), ("Apple", "no furniture"), ("Floor", "no furniture")]
+    {
+        let rules = Rules { exclusive: vec![name.to_string()], ..Rules::default() };
+        let error = setup_with("FloorPlan6", &able(1), None, 0, &rules).unwrap_err().to_string();
+        assert!(error.contains(wanted), "{name}: {error}");
     }
+}
+
+#[test]
+fn what_happens_without_the_team_follows_the_same_rules() {
+    let mut w = kitchen();
+    w.run("GoToObject r1 Apple_1\nObjectMoved Apple_1 CounterTop_1 CounterTop_2");
+    w.check(&["(in Apple_1 CounterTop_2)", "!(at r1 Apple_1)", "(exposed Apple_1)"]);
+    w.refuses("ObjectMoved Apple_1 CounterTop_2 Cabinet_1", "accessible cabinet_1");
+    w.run("GoToObject r1 Fridge_1\nOpenObject r1 Fridge_1\nDoorClosed Fridge_1");
+    w.check(&["!(open Fridge_1)", "!(accessible Fridge_1)", "!(exposed Egg_1)"]);
+    w.refuses("DoorClosed Fridge_1", "open fridge_1");
 }

@@ -15,7 +15,9 @@ use lamma_domains::world::setup;
 #[test]
 fn the_domain_has_the_types_of_the_table() {
     let table: BTreeSet<String> = Kinds::get().names().map(str::to_lowercase).collect();
-    let ours = ["robot", "thing", "liquid", "count", "skill", "fixture", "item", "vessel", "heater", "basin"];
+    let ours = [
+        "robot", "crew", "thing", "liquid", "count", "skill", "fixture", "item", "vessel", "heater", "basin",
+    ];
     let domain: BTreeSet<String> = union_domain()
         .types
         .iter()
@@ -191,6 +193,10 @@ fn random_act(world: &World, random: &mut Seed, late: bool) -> String {
         words.push(match param.types[0].as_str() {
             "robot" if index == 0 => robot.to_string(),
             "robot" => robots[random.below(robots.len())].to_string(),
+            "crew" => match world.crews().len() {
+                0 => "none".to_string(),
+                crews => format!("crew_{}", 1 + random.below(crews)),
+            },
             "liquid" => ["water", "coffee", "wine"][random.below(3)].to_string(),
             _ if action.name == "GoToObject" || near.is_empty() => any_thing(world, random),
             _ => {

@@ -57,7 +57,7 @@ fn every_goal_is_within_its_teams_reach_and_most_need_more_than_one_robot() {
         let team = robots::team(&task.team).unwrap();
         let alone = team.iter().any(|robot| {
             let team = std::slice::from_ref(robot);
-            let setup = setup_with(&task.scene, team, task.objects.as_deref(), 0, task.rules).unwrap();
+            let setup = setup_with(&task.scene, team, task.objects.as_deref(), 0, &task.rules).unwrap();
             let goal = condition(&task.goal, &setup).unwrap();
             plannable(&setup, &goal)
         });
@@ -91,9 +91,7 @@ fn plannable(setup: &WorldSetup, goal: &Goal) -> bool {
         goal: goal.condition(),
         metric: None,
     };
-    let mut domain = setup.domain.clone();
-    domain.actions.retain(|action| Some(&action.name) != setup.on_lost.as_ref());
-    let task = ground(&domain, &problem, &Default::default()).unwrap_or_else(|e| panic!("{e}"));
+    let task = ground(&setup.team_domain(), &problem, &Default::default()).unwrap_or_else(|e| panic!("{e}"));
     let limits = Limits { expansions: Some(200_000), ..Limits::default() };
     match solve(&task, &SearchOptions::default(), &limits, &AtomicBool::new(false)) {
         Outcome::Found(_) => true,

@@ -2,6 +2,7 @@
 
 pub mod checker;
 pub mod faults;
+pub mod house;
 pub mod rng;
 pub mod scenario;
 pub mod testbed;

@@ -26,8 +26,8 @@ pub struct RunSpec {
     pub team: Vec<Robot>,
     /// Replaces the scene's movable objects.
     pub objects: Option<Vec<ObjectSpec>>,
-    /// Slicing needs no knife.
-    pub knife_free: bool,
+    /// Rules that differ from the usual.
+    pub rules: Rules,
     /// What is wanted.
     pub task: Task,
     /// What the outcome is judged by, if not by what was understood.
@@ -75,8 +75,7 @@ pub const EXPANSIONS: u64 = 200_000;
 impl RunSpec {
     /// The world of the run; the same for the same spec, in every process.
     pub fn world(&self) -> Result<WorldSetup, Failure> {
-        let rules = Rules { knife_free: self.knife_free };
-        setup_with(&self.scene, &self.team, self.objects.as_deref(), self.seed, rules)
+        setup_with(&self.scene, &self.team, self.objects.as_deref(), self.seed, &self.rules)
             .map_err(Failure::bad_input)
     }
 

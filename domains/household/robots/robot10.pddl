@@ -1,7 +1,14 @@
 (define (domain household)
-  (:requirements :strips :typing :equality :negative-preconditions :conditional-effects)
+  (:requirements
+    :strips
+    :typing
+    :equality
+    :negative-preconditions
+    :disjunctive-preconditions
+    :universal-preconditions
+    :conditional-effects)
   (:types
-    robot thing liquid count skill - object
+    robot crew thing liquid count skill - object
     fixture item - thing
     vessel - item
     heater basin ArmChair Bed Blinds Cabinet Chair CoffeeTable CounterTop Curtains Desk DeskLamp Desktop DiningTable DogBed Drawer Dresser Faucet Floor FloorLamp Fridge GarbageBag GarbageCan HandTowelHolder HousePlant LaundryHamper LightSwitch Mirror Ottoman Painting Poster RoomDecor Safe Shelf ShelvingUnit ShowerCurtain ShowerDoor ShowerGlass ShowerHead SideTable Sofa Stool StoveKnob TVStand TargetCircle Television Toilet ToiletPaperHanger TowelHolder VacuumCleaner Window - fixture
@@ -20,7 +27,7 @@
   (:constants
     water coffee wine - liquid
     none one two three four - count
-    GoToObject PickupObject PutObject OpenObject CloseObject SwitchOn SwitchOff SliceObject BreakObject CleanObject DirtyObject FillObject EmptyObject DropHandObject ThrowObject PushObject PullObject - skill)
+    GoToObject PickupObject PutObject OpenObject CloseObject SwitchOn SwitchOff SliceObject BreakObject CleanObject DirtyObject FillObject EmptyObject UseUpObject DropHandObject ThrowObject PushObject PullObject - skill)
   (:predicates
     (at ?r - robot ?x - thing)
     (holding ?r - robot ?x - item)
@@ -65,6 +72,7 @@
     (dirtyable ?x - thing)
     (fillable ?x - thing)
     (pushable ?x - thing)
+    (consumable ?x - thing)
     (receptacle ?c - thing)
     (heat-source ?c - thing)
     (cold-source ?c - thing)
@@ -76,14 +84,22 @@
     (controls ?s ?d - thing)
     (fills ?s ?b - thing)
     (can-lift ?r - robot ?x - item)
-    (can-lift-together ?r ?h - robot ?x - item)
+    (in-crew ?r - robot ?g - crew)
+    (can-lift-together ?g - crew ?x - item)
     (can-help-lift ?h - robot ?x - item)
+    (exclusive ?c - fixture)
     (one-handed ?r - robot)
     (many-handed ?r - robot)
     (next ?n ?m - count))
   (:action GoToObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (has ?r GoToObject) (placed ?x) (mobile ?r))
+    :precondition (and
+      (has ?r GoToObject)
+      (placed ?x)
+      (mobile ?r)
+      (forall
+        (?c - fixture ?o - robot)
+        (or (not (exclusive ?c)) (= ?o ?r) (not (at ?o ?c)) (and (not (= ?x ?c)) (not (in ?x ?c))))))
     :effect (and
       (forall (?y - thing) (not (at ?r ?y)))
       (forall (?f - Floor) (at ?r ?f))
@@ -101,7 +117,8 @@
       (at ?r ?x)
       (at ?r ?c)
       (exposed ?c)
-      (accessible ?c))
+      (accessible ?c)
+      (forall (?h - robot) (not (supporting ?h ?x))))
     :effect (and
       (holding ?r ?x)
       (not (in ?x ?c))
@@ -242,12 +259,26 @@
         (when
           (and (many-handed ?h) (next ?m ?n) (free-hands ?h ?n))
           (and (not (free-hands ?h ?n)) (free-hands ?h ?m))))))
+  (:action WithdrawHand
+    :parameters (?h - robot ?x - item)
+    :precondition (and (has ?h PickupObject) (supporting ?h ?x) (placed ?x))
+    :effect (and
+      (not (supporting ?h ?x))
+      (mobile ?h)
+      (hand-free ?h)
+      (forall
+        (?n ?m - count)
+        (when
+          (and (many-handed ?h) (next ?n ?m) (free-hands ?h ?n))
+          (and (not (free-hands ?h ?n)) (free-hands ?h ?m))))))
   (:action PickupTogether
-    :parameters (?r ?h - robot ?x - item ?c - thing)
+    :parameters (?r - robot ?g - crew ?x - item ?c - thing)
     :precondition (and
       (has ?r PickupObject)
-      (can-lift-together ?r ?h ?x)
-      (supporting ?h ?x)
+      (in-crew ?r ?g)
+      (can-lift-together ?g ?x)
+      (forall (?h - robot) (or (not (in-crew ?h ?g)) (= ?h ?r) (supporting ?h ?x)))
+      (forall (?h - robot) (or (in-crew ?h ?g) (not (supporting ?h ?x))))
       (hand-free ?r)
       (mobile ?r)
       (pickupable ?x)
@@ -258,8 +289,10 @@
       (accessible ?c))
     :effect (and
       (holding ?r ?x)
-      (helping ?h ?r)
-      (forall (?y - thing) (not (at ?h ?y)))
+      (forall (?h - robot) (when (and (in-crew ?h ?g) (not (= ?h ?r))) (helping ?h ?r)))
+      (forall
+        (?h - robot ?y - thing)
+        (when (and (in-crew ?h ?g) (not (= ?h ?r))) (not (at ?h ?y))))
       (not (in ?x ?c))
       (not (placed ?x))
       (not (exposed ?x))
@@ -275,25 +308,33 @@
           (and (not (free-hands ?r ?n)) (free-hands ?r ?m))))
       (when (cutter ?x) (armed ?r))))
   (:action PutTogether
-    :parameters (?r ?h - robot ?x - item ?c - thing)
+    :parameters (?r - robot ?g - crew ?x - item ?c - thing)
     :precondition (and
       (has ?r PutObject)
-      (can-lift-together ?r ?h ?x)
+      (in-crew ?r ?g)
+      (can-lift-together ?g ?x)
       (holding ?r ?x)
-      (helping ?h ?r)
-      (supporting ?h ?x)
+      (forall
+        (?h - robot)
+        (or (not (in-crew ?h ?g)) (= ?h ?r) (and (helping ?h ?r) (supporting ?h ?x))))
       (accepts ?c ?x)
       (accessible ?c)
       (exposed ?c)
       (at ?r ?c))
     :effect (and
       (not (holding ?r ?x))
-      (not (supporting ?h ?x))
-      (not (helping ?h ?r))
-      (mobile ?h)
-      (at ?h ?c)
-      (at ?h ?x)
-      (forall (?f - Floor) (at ?h ?f))
+      (forall
+        (?h - robot)
+        (when
+          (and (in-crew ?h ?g) (not (= ?h ?r)))
+          (and
+            (not (supporting ?h ?x))
+            (not (helping ?h ?r))
+            (mobile ?h)
+            (hand-free ?h)
+            (at ?h ?c)
+            (at ?h ?x))))
+      (forall (?h - robot ?f - Floor) (when (and (in-crew ?h ?g) (not (= ?h ?r))) (at ?h ?f)))
       (in ?x ?c)
       (placed ?x)
       (at ?r ?x)
@@ -325,11 +366,10 @@
         (when
           (and (many-handed ?r) (cutter ?x) (cutter ?k) (not (= ?k ?x)) (holding ?r ?k))
           (armed ?r)))
-      (hand-free ?h)
       (forall
-        (?n ?m - count)
+        (?h - robot ?n ?m - count)
         (when
-          (and (many-handed ?h) (next ?n ?m) (free-hands ?h ?n))
+          (and (in-crew ?h ?g) (not (= ?h ?r)) (many-handed ?h) (next ?n ?m) (free-hands ?h ?n))
           (and (not (free-hands ?h ?n)) (free-hands ?h ?m))))))
   (:action OpenObject
     :parameters (?r - robot ?x - thing)

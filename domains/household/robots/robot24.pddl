@@ -1,7 +1,14 @@
 (define (domain household)
-  (:requirements :strips :typing :equality :negative-preconditions :conditional-effects)
+  (:requirements
+    :strips
+    :typing
+    :equality
+    :negative-preconditions
+    :disjunctive-preconditions
+    :universal-preconditions
+    :conditional-effects)
   (:types
-    robot thing liquid count skill - object
+    robot crew thing liquid count skill - object
     fixture item - thing
     vessel - item
     heater basin ArmChair Bed Blinds Cabinet Chair CoffeeTable CounterTop Curtains Desk DeskLamp Desktop DiningTable DogBed Drawer Dresser Faucet Floor FloorLamp Fridge GarbageBag GarbageCan HandTowelHolder HousePlant LaundryHamper LightSwitch Mirror Ottoman Painting Poster RoomDecor Safe Shelf ShelvingUnit ShowerCurtain ShowerDoor ShowerGlass ShowerHead SideTable Sofa Stool StoveKnob TVStand TargetCircle Television Toilet ToiletPaperHanger TowelHolder VacuumCleaner Window - fixture
@@ -20,7 +27,7 @@
   (:constants
     water coffee wine - liquid
     none one two three four - count
-    GoToObject PickupObject PutObject OpenObject CloseObject SwitchOn SwitchOff SliceObject BreakObject CleanObject DirtyObject FillObject EmptyObject DropHandObject ThrowObject PushObject PullObject - skill)
+    GoToObject PickupObject PutObject OpenObject CloseObject SwitchOn SwitchOff SliceObject BreakObject CleanObject DirtyObject FillObject EmptyObject UseUpObject DropHandObject ThrowObject PushObject PullObject - skill)
   (:predicates
     (at ?r - robot ?x - thing)
     (holding ?r - robot ?x - item)
@@ -65,6 +72,7 @@
     (dirtyable ?x - thing)
     (fillable ?x - thing)
     (pushable ?x - thing)
+    (consumable ?x - thing)
     (receptacle ?c - thing)
     (heat-source ?c - thing)
     (cold-source ?c - thing)
@@ -76,14 +84,22 @@
     (controls ?s ?d - thing)
     (fills ?s ?b - thing)
     (can-lift ?r - robot ?x - item)
-    (can-lift-together ?r ?h - robot ?x - item)
+    (in-crew ?r - robot ?g - crew)
+    (can-lift-together ?g - crew ?x - item)
     (can-help-lift ?h - robot ?x - item)
+    (exclusive ?c - fixture)
     (one-handed ?r - robot)
     (many-handed ?r - robot)
     (next ?n ?m - count))
   (:action GoToObject
     :parameters (?r - robot ?x - thing)
-    :precondition (and (has ?r GoToObject) (placed ?x) (mobile ?r))
+    :precondition (and
+      (has ?r GoToObject)
+      (placed ?x)
+      (mobile ?r)
+      (forall
+        (?c - fixture ?o - robot)
+        (or (not (exclusive ?c)) (= ?o ?r) (not (at ?o ?c)) (and (not (= ?x ?c)) (not (in ?x ?c))))))
     :effect (and
       (forall (?y - thing) (not (at ?r ?y)))
       (forall (?f - Floor) (at ?r ?f))

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(dead_code, reason = "each test file uses its part")]
 
+use std::collections::BTreeMap;
+
 use lamma_domains::robots::{Robot, SKILLS};
 use lamma_domains::world::{ObjectSpec, Rules, WorldSetup, setup_with};
 use lamma_pddl::ast::{Condition, GroundAtom};
@@ -29,10 +31,10 @@ pub fn specs(json: &str) -> Vec<ObjectSpec> {
 
 impl World {
     pub fn new(scene: &str, team: &[Robot], objects: Option<&str>) -> Self {
-        World::with(scene, team, objects, Rules::default())
+        World::with(scene, team, objects, &Rules::default())
     }
 
-    pub fn with(scene: &str, team: &[Robot], objects: Option<&str>, rules: Rules) -> Self {
+    pub fn with(scene: &str, team: &[Robot], objects: Option<&str>, rules: &Rules) -> Self {
         let objects = objects.map(specs);
         let setup = setup_with(scene, team, objects.as_deref(), 1, rules).unwrap_or_else(|e| panic!("{e}"));
         World::of(setup)
@@ -69,6 +71,26 @@ impl World {
             ),
         }
         assert!(self.state == before, "{act}: refused, but the world changed");
+    }
+
+    /// The crews by name, each with its robots.
+    pub fn crews(&self) -> BTreeMap<String, Vec<String>> {
+        let mut crews: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        for fact in self.state.facts.iter().filter(|f| f.predicate == "in-crew") {
+            crews.entry(fact.args[1].to_string()).or_default().push(fact.args[0].to_string());
+        }
+        crews
+    }
+
+    pub fn find_crew(&self, robots: &[&str]) -> Option<String> {
+        self.crews().into_iter().find(|(_, members)| members == robots).map(|(name, _)| name)
+    }
+
+    /// `{before} {the crew of these robots} {after}`
+    pub fn crew(&self, before: &str, robots: &[&str], after: &str) -> String {
+        let crew =
+            self.find_crew(robots).unwrap_or_else(|| panic!("no crew of {robots:?}: {:?}", self.crews()));
+        format!("{before} {crew} {after}")
     }
 
     pub fn has(&self, fact: &str) -> bool {

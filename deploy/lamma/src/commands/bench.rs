@@ -158,7 +158,7 @@ fn spec(args: &BenchArgs, entry: &Entry) -> Result<RunSpec, Failure> {
     spec.scene = task.scene.clone();
     spec.team = team(&task.team).map_err(Failure::bad_input)?;
     spec.objects = task.objects.clone();
-    spec.knife_free = task.rules.knife_free;
+    spec.rules = task.rules.clone();
     spec.score = Some(task.goal.clone());
     spec.reference = task.reference.map(|r| (f64::from(r.makespan), r.steps as usize));
     Ok(spec)

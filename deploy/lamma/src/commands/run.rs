@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use lamma_domains::robots::{Member, team};
-use lamma_domains::world::WorldSetup;
+use lamma_domains::world::{Rules, WorldSetup};
 
 use crate::cli::{CommonArgs, Format, RunArgs};
 use crate::error::Failure;
@@ -50,7 +50,7 @@ pub fn spec_from(common: &CommonArgs, task: Task) -> RunSpec {
         scene: String::new(),
         team: Vec::new(),
         objects: None,
-        knife_free: false,
+        rules: Rules::default(),
         task,
         score: None,
         reference: None,

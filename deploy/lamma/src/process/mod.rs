@@ -140,13 +140,11 @@ pub fn language_model(spec: &RunSpec) -> Result<Box<dyn LanguageModel>, Failure>
 
 /// The team as planning sees it.
 pub fn team(world: &WorldSetup) -> Team {
-    let mut domain = world.domain.clone();
-    domain.actions.retain(|a| Some(&a.name) != world.on_lost.as_ref());
     let members =
         world.members.iter().map(|m| Member { name: Name::new(&m.name), domain: Arc::new(m.domain.clone()) });
     Team {
         members: members.collect(),
-        domain: Arc::new(domain),
+        domain: Arc::new(world.team_domain()),
         objects: world.objects.clone(),
         relaxations: too_heavy(world),
         skill_facts: skill_facts(world),

@@ -1,0 +1,277 @@
+//! The simulator, which interprets the PDDL domain, and a state machine written without it agree on what is
+//! possible and on what comes of it: random acts through both.
+//!
+//! 8,000 acts by default; `AGREEMENT_STEPS=100000 cargo test -p lamma-tests --test agreement -- --nocapture`
+//! does more and prints how often each action was applied and refused.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use lamma_domains::robots::{Robot, SKILLS, actions_of};
+use lamma_domains::seed::Seed;
+use lamma_domains::world::{ObjectSpec, Rules, WorldSetup, setup_with};
+use lamma_pddl::Name;
+use lamma_protocol::message::{Act, Grant, Message, Request, Verdict};
+use lamma_protocol::{AgentId, Envelope, Epoch, Input, Machine, Output, Revision, Tick, Topic};
+use lamma_simulator::{AgentSpec, Arbiter, WorldConfig};
+use lamma_tests::house::{COMPARED, House};
+
+/// Acts in one world before a new one is begun: later ones meet ever more broken and used-up things.
+const EPISODE: usize = 400;
+
+const KITCHEN: &str = r#"[
+    {"type": "Apple", "in": "CounterTop_1"}, {"type": "Bread", "in": "CounterTop_1"}, {"type": "Egg", "in": "Fridge"},
+    {"type": "Potato", "in": "Microwave"}, {"type": "Knife", "in": "CounterTop_1"}, {"type": "Pan", "in": "StoveBurner_1"},
+    {"type": "Plate", "in": "CounterTop_1"}, {"type": "Mug", "in": "CounterTop_1", "is": {"isDirty": true}},
+    {"type": "Bowl", "in": "SinkBasin"}, {"type": "Tomato", "in": "Bowl_1"}, {"type": "SoapBottle", "in": "CounterTop_1"},
+    {"type": "PaperTowelRoll", "in": "CounterTop_1"}, {"type": "Cup", "in": "Cabinet_1", "is": {"fillLiquid": "wine"}}
+]"#;
+
+/// Each action's parameters after the robot: what a random act gives them.
+#[derive(Clone, Copy)]
+enum Give {
+    Anything,
+    Near,
+    Held,
+    /// Where the thing before it lies.
+    ItsPlace,
+    Crew,
+    Liquid,
+}
+
+fn parameters(action: &str) -> &'static [Give] {
+    match action {
+        "GoToObject" => &[Give::Anything],
+        "PickupObject" => &[Give::Near, Give::ItsPlace],
+        "PutObject" => &[Give::Held, Give::Near],
+        "DropHandObject" | "ThrowObject" => &[Give::Held],
+        "PickupTogether" => &[Give::Crew, Give::Near, Give::ItsPlace],
+        "PutTogether" => &[Give::Crew, Give::Held, Give::Near],
+        "FillObject" => &[Give::Near, Give::Liquid],
+        _ => &[Give::Near],
+    }
+}
+
+struct Both {
+    setup: WorldSetup,
+    arbiter: Arbiter,
+    house: House,
+    revision: u64,
+    epoch: u64,
+    /// What robots gather around for a while, so that they meet.
+    focus: String,
+}
+
+impl Both {
+    fn new(scene: &str, team: &[Robot], objects: Option<&str>, rules: &Rules, seed: u64) -> Both {
+        let objects: Option<Vec<ObjectSpec>> = objects.map(|o| serde_json::from_str(o).unwrap());
+        let setup =
+            setup_with(scene, team, objects.as_deref(), seed, rules).unwrap_or_else(|e| panic!("{e}"));
+        let agents = setup.members.iter().map(|m| AgentSpec {
+            name: Name::new(&m.name),
+            skills: m.domain.actions.iter().map(|a| a.name.clone()).collect(),
+        });
+        let arbiter = Arbiter::new(WorldConfig {
+            domain: setup.domain.clone(),
+            objects: setup.objects.clone(),
+            init: setup.init.clone(),
+            agents: agents.collect(),
+            on_lost: setup.on_lost.clone(),
+            step_ms: 0,
+        })
+        .unwrap();
+        let house = House::new(&setup, team, rules);
+        Both { setup, arbiter, house, revision: 0, epoch: 0, focus: "Floor_1".into() }
+    }
+
+    fn say(&mut self, topic: Topic, message: Message) -> Option<Verdict> {
+        self.revision += 1;
+        let revision = Revision { incarnation: 0, number: self.revision };
+        self.arbiter.handle(Tick(0), Input::Message(topic, Envelope { revision, message }));
+        let mut verdict = None;
+        while let Some(output) = self.arbiter.poll_output() {
+            if let Output::Publish(Topic::Ack(_), Message::Ack(ack)) = output {
+                verdict = Some(ack.verdict);
+            }
+        }
+        verdict
+    }
+
+    fn grant(&mut self, lost: Vec<AgentId>) {
+        self.epoch += 1;
+        self.say(Topic::Grant, Message::Grant(Grant { epoch: Epoch(self.epoch), lost }));
+    }
+
+    /// The simulator's answer.
+    fn ask(&mut self, agent: usize, words: &[&str]) -> Result<(), String> {
+        let step = self.arbiter.progress()[agent];
+        let act = Act { action: words[0].into(), args: words[1..].iter().map(ToString::to_string).collect() };
+        let request = Request { epoch: Epoch(self.epoch), step, act, gates: Vec::new() };
+        match self.say(Topic::Request(AgentId(agent as u16)), Message::Request(request)) {
+            Some(Verdict::Applied { .. }) => Ok(()),
+            Some(Verdict::Refused(refusal)) => {
+                // What is refused stays refused within its epoch.
+                self.grant(Vec::new());
+                Err(refusal.reason)
+            }
+            None => panic!("no answer to {words:?}"),
+        }
+    }
+
+    fn facts(&self) -> BTreeSet<String> {
+        let state = self.arbiter.state();
+        let compared = state.facts.iter().filter(|f| COMPARED.contains(&f.predicate.as_str()));
+        compared.map(|f| f.to_string().trim_matches(['(', ')']).to_string()).collect()
+    }
+
+    fn same_state(&self) -> Result<(), String> {
+        let (theirs, ours) = (self.facts(), self.house.facts());
+        if theirs == ours {
+            return Ok(());
+        }
+        let only = |a: &BTreeSet<String>, b: &BTreeSet<String>| a.difference(b).cloned().collect::<Vec<_>>();
+        Err(format!(
+            "simulator alone: {:?}; state machine alone: {:?}",
+            only(&theirs, &ours),
+            only(&ours, &theirs)
+        ))
+    }
+
+    /// An act for a random robot: mostly one that the state machine takes for possible, so that much happens,
+    /// else any, so that much is refused.
+    fn random_act(&mut self, random: &mut Seed) -> (usize, Vec<String>) {
+        let agent = random.below(self.setup.members.len());
+        let robot = self.setup.members[agent].name.clone();
+        if random.below(20) == 0 {
+            self.focus = self.anything(random);
+        }
+        let actions: Vec<&str> = actions_of(SKILLS).into_iter().collect();
+        let wild = random.below(4) == 0;
+        let mut trial = self.house.clone();
+        for _ in 0..5 {
+            let action = actions[random.below(actions.len())];
+            // A hand is seldom withdrawn, or no crew ever comes together.
+            if action == "WithdrawHand" && random.below(8) > 0 {
+                continue;
+            }
+            for _ in 0..10 {
+                let act = self.propose(action, &robot, random);
+                if wild || trial.act(&act.iter().map(String::as_str).collect::<Vec<_>>()).is_ok() {
+                    return (agent, act);
+                }
+            }
+        }
+        (agent, self.propose("GoToObject", &robot, random))
+    }
+
+    fn propose(&self, action: &str, robot: &str, random: &mut Seed) -> Vec<String> {
+        let mut words = vec![action.to_string(), robot.to_string()];
+        for give in parameters(action) {
+            let word = match give {
+                Give::Anything if random.below(2) == 0 => self.focus.clone(),
+                Give::Anything => self.anything(random),
+                Give::Near => self.one_of(self.house.near(robot), random),
+                Give::Held => self.one_of(self.house.held(robot), random),
+                Give::ItsPlace => self.one_of(self.house.container(&words[words.len() - 1]), random),
+                Give::Crew => self.one_of(self.house.crews_of(robot), random),
+                Give::Liquid => ["water", "coffee", "wine"][random.below(3)].to_string(),
+            };
+            words.push(word);
+        }
+        words
+    }
+
+    fn anything(&self, random: &mut Seed) -> String {
+        self.setup.things[random.below(self.setup.things.len())].name.clone()
+    }
+
+    /// One of these; now and then anything at all.
+    fn one_of<'a>(&self, names: impl Iterator<Item = &'a str>, random: &mut Seed) -> String {
+        let names: Vec<&str> = names.collect();
+        match names.len() {
+            0 => self.anything(random),
+            _ if random.below(15) == 0 => self.anything(random),
+            n => names[random.below(n)].to_string(),
+        }
+    }
+}
+
+fn robot(name: &str, capacity_kg: f64, hands: u8) -> Robot {
+    Robot { name: name.into(), skills: SKILLS.map(String::from).to_vec(), capacity_kg, hands }
+}
+
+/// One world of each kind: its scene, its team, its things, its rules.
+fn worlds() -> Vec<(&'static str, Vec<Robot>, Option<&'static str>, Rules)> {
+    let weak = vec![robot("r1", 0.35, 2), robot("r2", 0.3, 1), robot("r3", 0.4, 1)];
+    let mixed = vec![robot("r1", 5.0, 1), robot("r2", 0.6, 2), robot("r3", 0.5, 1)];
+    let mut half = mixed.clone();
+    half[0].skills.retain(|s| s != "PickupObject" && s != "SwitchOn");
+    half[1].skills.retain(|s| s != "PutObject" && s != "OpenObject");
+    let own = Rules {
+        knife_free: true,
+        exclusive: vec!["Fridge".into(), "CounterTop_1".into()],
+        ..Rules::default()
+    };
+    vec![
+        ("FloorPlan6", mixed.clone(), Some(KITCHEN), Rules::default()),
+        ("FloorPlan6", weak.clone(), Some(KITCHEN), Rules::default()),
+        ("FloorPlan15", half, Some(KITCHEN), own),
+        ("FloorPlan209", mixed.clone(), None, Rules::default()),
+        ("FloorPlan303", weak, None, Rules::default()),
+        ("FloorPlan414", mixed, None, Rules::default()),
+    ]
+}
+
+#[test]
+fn the_simulator_and_the_state_machine_agree() {
+    let steps: usize = std::env::var("AGREEMENT_STEPS").ok().and_then(|n| n.parse().ok()).unwrap_or(8_000);
+    let worlds = worlds();
+    let mut counts: BTreeMap<String, [usize; 2]> = BTreeMap::new();
+    let mut lost = 0;
+    for episode in 0..steps.div_ceil(EPISODE) {
+        let (scene, team, objects, rules) = &worlds[episode % worlds.len()];
+        let mut random = Seed::new(episode as u64, &["agreement"]);
+        let mut both = Both::new(scene, team, *objects, rules, episode as u64);
+        both.grant(Vec::new());
+        both.same_state().unwrap_or_else(|what| panic!("{scene}, episode {episode}, at the start: {what}"));
+        let mut log: Vec<String> = Vec::new();
+        for step in 0..EPISODE.min(steps - episode * EPISODE) {
+            let (agent, words) = both.random_act(&mut random);
+            let words: Vec<&str> = words.iter().map(String::as_str).collect();
+            let (simulator, machine) = (both.ask(agent, &words), both.house.act(&words));
+            let tell = |what: String| -> ! {
+                let log = log.join("\n");
+                panic!("{scene}, episode {episode}, step {step}: {}: {what}\nafter\n{log}", words.join(" "))
+            };
+            match (&simulator, &machine) {
+                (Ok(()), Err(why)) => tell(format!("the simulator did it, but {why}")),
+                (Err(why), Ok(())) => tell(format!("the simulator refused it: {why}")),
+                _ => both.same_state().unwrap_or_else(|what| tell(what)),
+            }
+            counts.entry(words[0].to_string()).or_default()[usize::from(simulator.is_err())] += 1;
+            if simulator.is_ok() && words[0] == "SupportObject" {
+                both.focus = words[2].to_string();
+            }
+            if simulator.is_ok() {
+                log.push(words.join(" "));
+            }
+            // Near the end of every third episode a robot is lost.
+            if step == EPISODE * 3 / 4 && episode % 3 == 0 {
+                let gone = random.below(team.len());
+                both.grant(vec![AgentId(gone as u16)]);
+                both.house.lose(&team[gone].name);
+                log.push(format!("RobotLost {}", team[gone].name));
+                both.same_state().unwrap_or_else(|what| panic!("{what}\nafter\n{}", log.join("\n")));
+                lost += 1;
+            }
+        }
+    }
+    println!("{steps} random acts, {lost} robots lost: the simulator and the state machine agree");
+    for (action, [applied, refused]) in &counts {
+        println!("{action:<16} applied {applied:>6}  refused {refused:>6}");
+    }
+    for action in actions_of(SKILLS) {
+        let applied = counts.get(action).map_or(0, |c| c[0]);
+        assert!(applied > 0, "{action} was never applied: the walk is too tame to test it");
+    }
+}
