@@ -17,7 +17,10 @@ fn main() -> Result<(), Failure> {
         return Err("usage: read FOLDER FLOORPLAN SENTENCE...".into());
     };
     let objects = objects(Path::new(folder), plan)?;
-    let offline = Offline::new()?;
+    let offline = match std::env::var_os("LEXICON") {
+        Some(folder) => Offline::from_folder(Path::new(&folder))?,
+        None => Offline::new()?,
+    };
     let lines: Vec<String> = if sentences == ["-"] {
         std::io::stdin().lock().lines().collect::<Result<_, _>>()?
     } else {

@@ -394,12 +394,14 @@ proptest! {
     }
 }
 
-/// `cargo test -p lamma-lm --release -- --ignored a_million`
+/// `LAMMA_FUZZ=1000000 cargo test -p lamma-lm --release -- --ignored a_million`; without the variable a
+/// thousand.
 #[test]
 #[ignore = "takes minutes; run it in release"]
 fn a_million_inputs_are_survived() {
+    let cases = std::env::var("LAMMA_FUZZ").ok().and_then(|count| count.parse().ok());
     let mut runner = proptest::test_runner::TestRunner::new(ProptestConfig {
-        cases: 1_000_000,
+        cases: cases.unwrap_or(1000),
         failure_persistence: None,
         ..ProptestConfig::default()
     });

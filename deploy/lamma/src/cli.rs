@@ -99,6 +99,9 @@ pub struct CommonArgs {
     /// Model name, for `--lm openai` [env: LAMMA_LM_MODEL].
     #[arg(long)]
     pub lm_model: Option<String>,
+    /// A TOML file that adds words, verbs and situations to the embedded lexicon (domains/README.md).
+    #[arg(long)]
+    pub lexicon: Option<PathBuf>,
     /// Seed of everything that is placed or drawn by chance.
     #[arg(long, default_value_t = 0)]
     pub seed: u64,

@@ -67,6 +67,9 @@ pub struct LmSpec {
     pub url: Option<String>,
     /// Model name.
     pub model: Option<String>,
+    /// A file that adds to the embedded lexicon.
+    #[serde(default)]
+    pub lexicon: Option<PathBuf>,
 }
 
 /// Bound of one search in a robot or the coordinator, in expanded states.

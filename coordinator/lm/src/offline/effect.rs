@@ -4,7 +4,7 @@ use lamma_domains::goal::PropertyValue;
 
 use super::lexicon::{Act, Settings, Verb};
 use super::mention::{Discourse, Spoken};
-use super::syntax::{Clause, Head, Phrase, Place, Relation};
+use super::syntax::{Clause, Head, Link, Phrase, Place, Relation};
 
 /// What a clause makes of an entity.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +59,16 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                             && clause.verbs.iter().any(|verb| verb.act == Act::Place)
                 })
         });
-        let lamp_wanted = clauses.iter().any(holds) && !sets_down;
+        let in_hand = |clause: &Clause<'_>| {
+            let scene = discourse.scene;
+            let movable = |place: &&Place| {
+                matches!(&place.phrase.head, Head::Noun(noun)
+                if noun.kinds.iter().any(|kind| scene.affords(kind, "pickupable")))
+            };
+            clause.verbs.iter().any(|verb| verb.wants.as_deref() == Some("toggleable"))
+                && clause.places.iter().filter(|place| place.relation == Relation::With).any(|p| movable(&p))
+        };
+        let lamp_wanted = clauses.iter().any(|clause| holds(clause) || in_hand(clause)) && !sets_down;
         let switches_on = clauses
             .iter()
             .any(|clause| clause.verbs.iter().any(|verb| verb.set.get("isToggled") == Some(&super::yes())));
@@ -100,15 +109,21 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             };
         } else if !clause.complement.is_empty() {
             // "the lamp should be off" asks for it; "the lamp is off" only says so.
-            if clause
-                .words
-                .iter()
-                .any(|word| ["should", "must", "needs", "need", "shall", "be"].contains(&word.as_str()))
-            {
+            if clause.wants() {
                 spoken = self.keep(clause);
+            } else if clause.link == Link::While || next.is_some_and(speaks_of_it) {
+                spoken = self.only_mention(clause);
+            } else if let Some(mended) = mended(clause) {
+                let text = format!("\"{}\" is taken as a complaint", clause.text);
+                self.discourse.assume(text, 0.8);
+                spoken = self.keep(&mended);
             } else {
                 self.discourse.problem(format!("it is not said what to do about \"{}\"", clause.text), 0.3);
             }
+        } else if next.is_some_and(speaks_of_it) && clause.unknown.iter().all(|word| is_need(word)) {
+            spoken = self.only_mention(clause);
+        } else if clause.unknown.is_empty() && clause.says_any(&["want", "need", "like", "love", "fancy"]) {
+            spoken = self.bring(clause);
         } else if !clause.objects.is_empty() || !clause.unknown.is_empty() {
             self.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.25);
         }
@@ -116,6 +131,25 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             self.discourse.assume(format!("passed over \"{word}\""), 0.85);
         }
         self.discourse.spoken.push(spoken);
+    }
+
+    /// "the pan is dirty, wash it": only says what is spoken of.
+    fn only_mention(&mut self, clause: &Clause<'a>) -> Spoken {
+        let mut objects = Vec::new();
+        for phrase in &clause.objects {
+            objects.extend(self.discourse.mention(phrase, &clause.places, None));
+        }
+        self.spoke = true;
+        Spoken { objects, ..Spoken::default() }
+    }
+
+    /// "I need a fork", "I want a cold apple": to be brought, or to be so.
+    fn bring(&mut self, clause: &Clause<'a>) -> Spoken {
+        let objects = self.objects(clause, &clause.places, Some("pickupable"));
+        if objects.iter().all(|&entity| self.discourse.entities[entity].asked.is_empty()) {
+            self.take(&objects);
+        }
+        Spoken { objects, ..Spoken::default() }
     }
 
     /// The first reading of the verb whose object can be had.
@@ -235,7 +269,14 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             _ => None,
         });
         let objects = self.objects(clause, &clause.places, wants);
-        if clause.complement.is_empty() {
+        if clause.complement.is_empty()
+            && clause.says_any(&["want", "need", "like", "love", "have"])
+            && !objects.is_empty()
+        {
+            if objects.iter().all(|&entity| self.discourse.entities[entity].asked.is_empty()) {
+                self.take(&objects);
+            }
+        } else if clause.complement.is_empty() {
             self.discourse.problem(format!("I do not know what is to hold in \"{}\"", clause.text), 0.3);
         }
         for &entity in &objects {
@@ -266,9 +307,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 && matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| self.discourse.scene.has(kind)))
         });
         if let Some(goal) = goal {
-            let lamp = matches!(&clause.places[goal].phrase.head, Head::Noun(noun)
-                if noun.kinds.iter().any(|kind| kind == "DeskLamp" || kind == "FloorLamp"));
-            if !lamp {
+            if !is_lamp(&clause.places[goal].phrase) {
                 let mut at = clause.places.clone();
                 let to = at.remove(goal);
                 return self.put(clause, &at, &to);
@@ -277,6 +316,11 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             let lamps = self.discourse.mention(&clause.places[goal].phrase, &[], Some("toggleable"));
             spoken.places.extend(lamps);
             return spoken;
+        }
+        let by_light =
+            |place: &Place| is_lamp(&place.phrase) && (place.under || place.relation == Relation::With);
+        if clause.places.iter().any(by_light) {
+            return self.examine(clause);
         }
         let at: Vec<Place> = clause
             .places
@@ -287,7 +331,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         let objects = self.objects(clause, &at, Some("pickupable"));
         self.take(&objects);
         let places = self.places_spoken_of(&clause.places);
-        Spoken { objects, places, placed: false }
+        Spoken { objects, places, placed: false, ..Spoken::default() }
     }
 
     fn take(&mut self, objects: &[usize]) {
@@ -316,10 +360,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
     }
 
     fn examine(&mut self, clause: &Clause<'a>) -> Spoken {
-        let is_light = |place: &&Place| {
-            matches!(&place.phrase.head, Head::Noun(noun)
-                if noun.kinds.iter().any(|kind| kind == "DeskLamp" || kind == "FloorLamp"))
-        };
+        let is_light = |place: &&Place| is_lamp(&place.phrase);
         let with: Vec<Place> = clause
             .objects
             .iter()
@@ -344,134 +385,38 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 self.add(lamp, Change::State("isToggled".to_owned(), super::yes()));
             }
         }
-        Spoken { objects, places, placed: false }
+        Spoken { objects, places, placed: false, ..Spoken::default() }
     }
+}
 
-    fn set(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
-        let is_tool = |place: &Place| matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| verb.tools.contains(kind)));
-        let at: Vec<Place> = clause
-            .places
-            .iter()
-            .filter(|place| !is_tool(place) && matches!(place.relation, Relation::In | Relation::From))
-            .cloned()
-            .collect();
-        let objects = self.objects(clause, &at, verb.wants.as_deref());
-        let mut changed = Vec::new();
-        for &entity in &objects {
-            let target = self.switch_of(entity, &verb.set);
-            let states = self.discourse.adapted_states(target, verb);
-            self.add_states(target, &states);
-            self.discourse.entities[target].asked.extend(states);
-            changed.push(target);
-        }
-        for place in clause.places.iter().filter(|place| is_tool(place)) {
-            if matches!(verb.act, Act::Heat | Act::Cook) && verb.device.is_none() {
-                let text = &place.phrase.text;
-                self.discourse
-                    .assume(format!("\"{text}\" is not part of the goal: any source of heat will do"), 0.99);
-            }
-        }
-        self.put_down_tools(verb);
-        self.hold_what_is_with(clause, verb);
-        let places = self.places_spoken_of(&clause.places);
-        Spoken { objects: changed, places, placed: false }
-    }
+/// Whether a clause is about what was just spoken of.
+fn speaks_of_it(clause: &Clause<'_>) -> bool {
+    !clause.verbs.is_empty()
+        && (clause.objects.is_empty()
+            || clause.objects.iter().any(|phrase| matches!(phrase.head, Head::Pronoun { .. })))
+}
 
-    /// What was picked up as the verb's tool is not held for its own sake.
-    fn put_down_tools(&mut self, verb: &Verb) {
-        let entities = &self.discourse.entities;
-        self.facts.retain(|fact| {
-            fact.change != Change::Held
-                || !entities[fact.entity].kinds.iter().any(|kind| verb.tools.contains(kind))
-        });
-    }
+/// "the pan needs to be washed"
+fn is_need(word: &str) -> bool {
+    ["need", "needs", "has", "have", "want", "wants", "ought", "had"].contains(&word)
+}
 
-    /// "turn on the lamp with a book in hand": the book is held.
-    fn hold_what_is_with(&mut self, clause: &Clause<'a>, verb: &Verb) {
-        if verb.wants.as_deref() != Some("toggleable") {
-            return;
+/// What a complaint asks for: what is dirty is to be clean, what was left open is to be closed.
+fn mended<'a>(clause: &Clause<'a>) -> Option<Clause<'a>> {
+    let complaint = clause.says_any(&["left", "still"]) || clause.complement.contains_key("isDirty");
+    let bad = clause.complement.values().all(|value| *value == super::yes());
+    (complaint && bad).then(|| {
+        let mut mended = clause.clone();
+        for value in mended.complement.values_mut() {
+            *value = super::opposite(value);
         }
-        let with = clause.objects.iter().flat_map(|phrase| &phrase.with);
-        let places = clause.places.iter().filter(|place| place.relation == Relation::With);
-        let phrases: Vec<Phrase> = with.chain(places.map(|place| &place.phrase)).cloned().collect();
-        for phrase in phrases {
-            let held = self.discourse.mention(&phrase, &[], Some("pickupable"));
-            self.take(&held);
-        }
-    }
+        mended
+    })
+}
 
-    /// What is switched when an entity is to be on or off.
-    fn switch_of(&mut self, entity: usize, states: &Settings) -> usize {
-        let kind = self.discourse.entities[entity].kind().to_owned();
-        let control = self.discourse.lexicon.control(&kind).map(str::to_owned);
-        match control {
-            Some(control) if states.contains_key("isToggled") && self.discourse.scene.has(&control) => {
-                let on = states.get("isToggled") == Some(&super::yes());
-                self.discourse.control(entity, control, on)
-            }
-            _ => entity,
-        }
-    }
-
-    fn fill(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
-        let liquid_of = |phrase: &Phrase| match &phrase.head {
-            Head::Liquid(liquid) => Some(liquid.clone()),
-            Head::Noun(noun) if ["water", "wine", "coffee"].contains(&noun.word.as_str()) => {
-                Some(noun.word.clone())
-            }
-            _ => None,
-        };
-        let said = clause
-            .objects
-            .iter()
-            .flat_map(|phrase| std::iter::once(phrase).chain(&phrase.with))
-            .chain(clause.places.iter().map(|place| &place.phrase))
-            .find_map(liquid_of);
-        let vessels: Vec<Phrase> =
-            clause.objects.iter().filter(|phrase| liquid_of(phrase).is_none()).cloned().collect();
-        let mut fill = clause.clone();
-        if verb.act == Act::Pour || vessels.is_empty() {
-            fill.objects = clause
-                .places
-                .iter()
-                .filter(|place| {
-                    matches!(place.relation, Relation::In | Relation::To)
-                        && liquid_of(&place.phrase).is_none()
-                })
-                .map(|place| place.phrase.clone())
-                .collect();
-        } else {
-            fill.objects = vessels;
-        }
-        let solid =
-            clause.objects.iter().any(|phrase| phrase.with.iter().any(|with| liquid_of(with).is_none()));
-        let objects = self.objects(&fill, &[], Some("canFillWithLiquid"));
-        if said.is_none() && solid {
-            return Spoken { objects, ..Spoken::default() };
-        }
-        let liquid = said.unwrap_or_else(|| {
-            self.discourse.assume("it is filled with water".to_owned(), 0.98);
-            "water".to_owned()
-        });
-        for &entity in &objects {
-            self.add(entity, Change::State("isFilledWithLiquid".to_owned(), super::yes()));
-            self.add(entity, Change::State("fillLiquid".to_owned(), PropertyValue::Word(liquid.clone())));
-        }
-        Spoken { objects, ..Spoken::default() }
-    }
-
-    fn empty(&mut self, clause: &Clause<'a>) -> Spoken {
-        let objects = self.objects(clause, &clause.places, Some("canFillWithLiquid"));
-        for &entity in &objects {
-            let kind = self.discourse.entities[entity].kind().to_owned();
-            if self.discourse.scene.affords(&kind, "canFillWithLiquid") {
-                self.add(entity, Change::State("isFilledWithLiquid".to_owned(), super::no()));
-            } else {
-                self.discourse.problem(format!("a {kind} holds no liquid to pour out"), 0.3);
-            }
-        }
-        Spoken { objects, ..Spoken::default() }
-    }
+/// Whether a phrase may be a lamp.
+fn is_lamp(phrase: &Phrase) -> bool {
+    matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| kind == "DeskLamp" || kind == "FloorLamp"))
 }
 
 /// Whether one change can undo the other.
@@ -483,5 +428,6 @@ fn about_the_same(a: &Change, b: &Change) -> bool {
     }
 }
 
+mod changing;
 mod forbid;
 mod placing;

@@ -48,12 +48,14 @@ impl<'e, 'a> Emitter<'e, 'a> {
             }
         }
         imply_purpose(discourse, &mut facts);
-        // What is picked up only to be put down is not held.
+        // What is picked up only to be put down or to be treated is not held.
         let facts: Vec<Fact> = (0..facts.len())
             .filter(|&i| {
                 facts[i].change != Change::Held
                     || !facts.iter().skip(i + 1).any(|later| {
-                        later.entity == facts[i].entity && matches!(later.change, Change::Inside(_))
+                        later.entity == facts[i].entity
+                            && (matches!(later.change, Change::Inside(_))
+                                || later.clause > facts[i].clause && is_treatment(&later.change))
                     })
             })
             .map(|i| facts[i].clone())
@@ -285,6 +287,12 @@ fn imply_purpose(discourse: &mut Discourse<'_>, facts: &mut Vec<Fact>) {
             );
         }
     }
+}
+
+/// What is done to a thing that was picked up for it: washing, slicing, heating.
+fn is_treatment(change: &Change) -> bool {
+    matches!(change, Change::State(property, _)
+        if ["isDirty", "isSliced", "temperature", "isCooked", "isBroken", "isFilledWithLiquid"].contains(&property.as_str()))
 }
 
 fn content(entry: GoalEntry) -> Content {

@@ -5,6 +5,7 @@
 //! which is how compounds are joined and split.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use lamma_domains::goal::PropertyValue;
 use serde::Deserialize;
@@ -134,6 +135,8 @@ struct File {
     under: BTreeMap<String, String>,
     #[serde(default)]
     inside: BTreeMap<String, Vec<String>>,
+    #[serde(default)]
+    likes: BTreeMap<String, Vec<String>>,
 }
 
 /// The lexicon.
@@ -150,6 +153,7 @@ pub struct Lexicon {
     homes: BTreeMap<String, Vec<String>>,
     under: BTreeMap<String, String>,
     inside: BTreeMap<String, Vec<String>>,
+    likes: BTreeMap<String, Vec<String>>,
     vocabulary: BTreeSet<String>,
 }
 
@@ -160,6 +164,19 @@ impl Lexicon {
         for (name, text) in [("nouns", NOUNS), ("verbs", VERBS), ("words", WORDS), ("situations", SITUATIONS)]
         {
             lexicon.extend(&format!("the built-in lexicon ({name}.toml)"), text)?;
+        }
+        Ok(lexicon)
+    }
+
+    /// A lexicon that takes the place of the one built in: the four files of a folder.
+    pub fn from_folder(folder: &Path) -> Result<Self, LmError> {
+        let mut lexicon = Self::default();
+        for name in ["nouns.toml", "verbs.toml", "words.toml", "situations.toml"] {
+            let path = folder.join(name);
+            let text = std::fs::read_to_string(&path).map_err(|error| {
+                LmError::Configuration(format!("cannot read the lexicon {}: {error}", path.display()))
+            })?;
+            lexicon.extend(&path.display().to_string(), &text)?;
         }
         Ok(lexicon)
     }
@@ -200,6 +217,7 @@ impl Lexicon {
         self.homes.extend(file.homes);
         self.under.extend(file.under);
         self.inside.extend(file.inside);
+        self.likes.extend(file.likes);
         for situation in file.situation {
             for word in situation.vocabulary() {
                 self.vocabulary.insert(word);
@@ -286,6 +304,22 @@ impl Lexicon {
         found
     }
 
+    /// The verb of one word that is one letter away from a word: the one of the same first letter before others.
+    pub fn near_verb(&self, word: &str) -> Option<(&str, Vec<&Verb>)> {
+        let letters: Vec<char> = word.chars().collect();
+        let near = |base: &&String| {
+            let other: Vec<char> = base.chars().collect();
+            other.len() >= 3 && super::text::damerau_levenshtein(&letters, &other) == 1
+        };
+        let bare = |base: &str| -> Vec<&Verb> {
+            let known = self.verb_index.get(base).map(Vec::as_slice).unwrap_or_default();
+            known.iter().filter(|(p, _)| p.is_empty()).map(|(_, index)| &self.verbs[*index]).collect()
+        };
+        let found = self.verb_index.keys().filter(near).filter(|base| !bare(base).is_empty());
+        let best = found.min_by_key(|base| (base.chars().next() != letters.first().copied(), base.len()))?;
+        Some((best, bare(best)))
+    }
+
     /// The state an adjective names.
     pub fn adjective(&self, words: &[&str]) -> Option<&Adjective> {
         self.adjectives.get(&words.concat())
@@ -315,6 +349,11 @@ impl Lexicon {
     /// What a word means for something inside a vessel.
     pub fn inside(&self, word: &str) -> Option<&[String]> {
         self.inside.get(word).map(Vec::as_slice)
+    }
+
+    /// What is called by a type's name where there is none of the type, the likelier first.
+    pub fn likes(&self, kind: &str) -> &[String] {
+        self.likes.get(kind).map(Vec::as_slice).unwrap_or_default()
     }
 
     /// What is meant by "under" a thing.

@@ -51,6 +51,8 @@ pub struct Spoken {
     pub places: Vec<usize>,
     /// The clause put the objects in the places.
     pub placed: bool,
+    /// Where one went.
+    pub reached: Vec<usize>,
 }
 
 /// Everything spoken of so far, and what was taken for granted or not understood.
@@ -110,6 +112,8 @@ impl<'a> Discourse<'a> {
             Head::Pronoun { plural } => self.pronoun(*plural, wants),
             Head::Slices => self.slices(),
             Head::Everything => self.everything(phrase, at),
+            // "the door", "the lid": of what was spoken of.
+            Head::Room if wants == Some("openable") => self.pronoun(false, wants),
             Head::Liquid(_) | Head::Room => Vec::new(),
             Head::Unknown(word) => {
                 self.problem(format!("I do not know what \"{word}\" is"), 0.25);
@@ -204,10 +208,23 @@ impl<'a> Discourse<'a> {
             self.problem("it is not said what the water is to be in".to_owned(), 0.3);
             return Vec::new();
         }
+        // "every light" means all that "lights" means.
+        let lexicon = self.lexicon;
+        let all = lexicon.noun(&[&super::lexicon::squash(&format!("{}s", noun.word))]);
+        let noun = match all {
+            Some((all, _)) if phrase.quantity == Quantity::All && all.class => all,
+            _ => noun,
+        };
         if let Some(known) = self.spoken_of_before(noun, phrase) {
             return known;
         }
         let mut kinds: Vec<String> = noun.kinds.iter().filter(|kind| self.scene.has(kind)).cloned().collect();
+        if kinds.is_empty() {
+            kinds = self.nearest_kinds(noun);
+            if let Some(kind) = kinds.first() {
+                self.assume(format!("there is no {} here; a {kind} is taken for it", noun.word), 0.8);
+            }
+        }
         if kinds.is_empty() {
             self.problem(format!("there is no {} here", noun.word), 0.2);
             return Vec::new();
@@ -238,6 +255,25 @@ impl<'a> Discourse<'a> {
             }
             Quantity::All => self.every(&kinds[..1.min(kinds.len())], phrase, at),
         }
+    }
+
+    /// What is here of what is meant by the last word alone ("white table": a table), or of what people call
+    /// so where there is none ("dresser": a sideboard).
+    fn nearest_kinds(&self, noun: &Noun) -> Vec<String> {
+        let here = |kinds: &[String]| -> Vec<String> {
+            kinds.iter().filter(|kind| self.scene.has(kind)).cloned().collect()
+        };
+        let last = noun.word.rsplit_once(' ').and_then(|(_, last)| self.lexicon.noun(&[last]));
+        let same = last.filter(|(last, _)| last.kinds.first().is_some_and(|kind| noun.kinds.contains(kind)));
+        let by_last_word = same.map(|(noun, _)| here(&noun.kinds)).unwrap_or_default();
+        if !by_last_word.is_empty() || noun.class {
+            return by_last_word;
+        }
+        noun.kinds
+            .iter()
+            .map(|kind| here(self.lexicon.likes(kind)))
+            .find(|k| !k.is_empty())
+            .unwrap_or_default()
     }
 
     fn affords(&self, kind: &str, affordance: &str) -> bool {
@@ -409,7 +445,9 @@ impl<'a> Discourse<'a> {
                 }
                 self.spread(kinds, count.min(there), phrase)
             }
-            Quantity::One if !uncountable || phrase.indefinite => vec![self.one(kinds.to_vec(), phrase, at)],
+            Quantity::One if !uncountable || phrase.indefinite || phrase.states.contains_key("isSliced") => {
+                vec![self.one(kinds.to_vec(), phrase, at)]
+            }
             _ => self.every(kinds, phrase, at),
         };
         let names: Vec<&str> = found.iter().map(|&e| self.entities[e].kind()).collect();

@@ -17,6 +17,7 @@ mod situation;
 mod syntax;
 mod text;
 
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use lamma_domains::goal::PropertyValue;
@@ -61,6 +62,11 @@ impl Offline {
     /// With the lexicon that is built in.
     pub fn new() -> Result<Self, LmError> {
         Ok(Self { lexicon: Lexicon::embedded()? })
+    }
+
+    /// With the lexicon of a folder instead: `nouns.toml`, `verbs.toml`, `words.toml`, `situations.toml`.
+    pub fn from_folder(folder: &Path) -> Result<Self, LmError> {
+        Ok(Self { lexicon: Lexicon::from_folder(folder)? })
     }
 
     /// Adds a user's lexicon: the text of a TOML file, and its name for messages.
@@ -125,11 +131,13 @@ struct Reading {
     others: Vec<Decomposition>,
     /// Whether it only says where to go.
     only_goes: bool,
+    /// Whether it says what to do to things of the scene, so that no situation stands for it.
+    concrete: bool,
 }
 
 impl Reading {
     fn answer(self, assume: bool) -> Answer {
-        let Self { decomposition, problems, others, only_goes } = self;
+        let Self { decomposition, problems, others, only_goes, .. } = self;
         let empty = decomposition.subtasks.is_empty();
         if !empty && (assume || decomposition.confidence >= THRESHOLD) {
             let mut decomposition = decomposition;
@@ -164,7 +172,7 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         .map(|(at, _)| at)
         .find(|&at| at >= text::LONGEST_INSTRUCTION)
         .unwrap_or(instruction.len());
-    let mut tokens = text::tokens(&instruction[..cut]);
+    let mut tokens = text::split_articles(text::tokens(&instruction[..cut]), lexicon, scene);
     let repairs = text::repair_spelling(&mut tokens, lexicon, scene);
     let typed: Vec<(String, String)> = tokens
         .iter()
@@ -174,7 +182,9 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
     let mut reading = word_by_word(&words, lexicon, scene);
     let absent = reading.problems.iter().any(|problem| problem.starts_with("there is no "));
-    if !absent && (reading.decomposition.subtasks.is_empty() || reading.decomposition.confidence < THRESHOLD)
+    if !absent
+        && !reading.concrete
+        && (reading.decomposition.subtasks.is_empty() || reading.decomposition.confidence < THRESHOLD)
     {
         let whole = as_situation(&words, instruction, lexicon, scene);
         match whole {
@@ -231,7 +241,8 @@ fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Readi
     for word in passed_over {
         discourse.assume(format!("passed over \"{word}\""), 0.97);
     }
-    finish(discourse, facts, &clauses)
+    let concrete = clauses.iter().any(|clause| is_concrete(clause, lexicon, scene));
+    Reading { concrete, ..finish(discourse, facts, &clauses) }
 }
 
 /// Reads a clause word by word; as a situation when that fails, or when a strong one fits.
@@ -247,6 +258,7 @@ fn one_clause<'a>(
     if let Some((strong, _)) = situation::best(situations, &words, true)
         && !clause.negated
         && is_weak(clause, lexicon)
+        && !says_where(clause, interpreter.discourse.scene)
         && interpreter.situation(index, strong)
     {
         interpreter.discourse.spoken.push(Spoken::default());
@@ -290,6 +302,33 @@ fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
         && clause.objects.iter().any(plain)
         && clause.places.iter().any(|place| matches!(place.phrase.head, syntax::Head::Noun(_)));
     clause.verbs.is_empty() || weak && !clause.verb_text.contains(' ') && !places
+}
+
+/// Whether a clause takes a thing of the scene to a place of the scene: "take the cloth to the bath" is no bath.
+fn says_where(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
+    let is_here = |phrase: &syntax::Phrase, affordance: &str| match &phrase.head {
+        syntax::Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, affordance)),
+        syntax::Head::Named(_) | syntax::Head::Pronoun { .. } => affordance == "pickupable",
+        _ => false,
+    };
+    let moves = clause.verbs.iter().any(|verb| matches!(verb.act, Act::Place | Act::Hold));
+    let goal = |place: &syntax::Place| {
+        matches!(place.relation, syntax::Relation::In | syntax::Relation::To)
+            && is_here(&place.phrase, "receptacle")
+    };
+    moves
+        && clause.objects.iter().any(|phrase| is_here(phrase, "pickupable"))
+        && clause.places.iter().any(goal)
+}
+
+/// Whether a clause does something to a thing of the scene that it names.
+fn is_concrete(clause: &Clause<'_>, lexicon: &Lexicon, scene: &Scene<'_>) -> bool {
+    let is_here = |phrase: &syntax::Phrase| match &phrase.head {
+        syntax::Head::Noun(noun) => !noun.class && noun.kinds.iter().any(|kind| scene.has(kind)),
+        syntax::Head::Named(_) => true,
+        _ => false,
+    };
+    !is_weak(clause, lexicon) && clause.objects.iter().any(is_here)
 }
 
 /// Whether a clause can only mean going somewhere: "turn left" can, "turn on the lamp" cannot.
@@ -422,5 +461,6 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
         problems: discourse.problems,
         others: Vec::new(),
         only_goes: !clauses.is_empty() && clauses.iter().all(only_goes),
+        concrete: false,
     }
 }

@@ -2,7 +2,7 @@
 
 use super::clause::Parser;
 use super::inflect;
-use super::lexicon::{LONGEST, Noun};
+use super::lexicon::{LONGEST, Lexicon, Noun};
 use super::syntax::{Head, Phrase, Quantity, is_determiner, is_function_word, preposition};
 use super::text::POSSESSIVE;
 
@@ -90,7 +90,7 @@ impl Parser<'_> {
             {
                 return Some(self.noun_head(noun, plural, length, front));
             }
-            if self.adjective(&mut front.phrase) {
+            if self.two_kinds(front) || self.adjective(&mut front.phrase) {
                 continue;
             }
             if self.lexicon.longest_small("slices", &self.rest()).is_some() || self.is_slices(word) {
@@ -117,17 +117,6 @@ impl Parser<'_> {
         None
     }
 
-    /// "the leftmost, lower drawer": a comma between modifiers.
-    fn list_of_modifiers(&self) -> bool {
-        let before = self.position.checked_sub(1).and_then(|at| self.words.get(at));
-        let is_modifier = |word: &str| {
-            self.lexicon.is_small("modifiers", &[word]) || self.lexicon.adjective(&[word]).is_some()
-        };
-        before.is_some_and(|word| is_modifier(word))
-            && self.word_at(1).is_some_and(is_modifier)
-            && (2..5).any(|at| self.longest_noun_at(self.position + at).is_some())
-    }
-
     /// A word nobody knows: a modifier when a noun follows at once, else the head.
     fn unknown_head(&mut self, word: &str, start: usize, front: &mut Front) -> Option<Head> {
         let liquid = ["coffee", "water", "wine"].contains(&word);
@@ -142,6 +131,15 @@ impl Parser<'_> {
             return None;
         }
         let known_modifier = self.lexicon.is_small("modifiers", &[word]);
+        if !known_modifier
+            && !self.lexicon.verbs(word).is_empty()
+            && self.longest_noun_at(self.position + 1).is_none()
+            && let Some(meant) = self.miswritten_noun(word)
+        {
+            self.position += 1;
+            self.choices.push(format!("read \"{word}\" as \"{}\"", meant.word));
+            return Some(Head::Noun(meant));
+        }
         self.position += 1;
         if known_modifier
             && let Some(next) = self.peek()
@@ -172,6 +170,7 @@ impl Parser<'_> {
             (is_function_word(next) && !is_determiner(next) && next != "of") || ",.".contains(next)
         });
         let head = match word {
+            "it" if self.is_miswritten_its(word) => return None,
             "it" | "him" => Head::Pronoun { plural: false },
             "them" | "they" => Head::Pronoun { plural: true },
             "this" | "that" | "one" if alone && self.can_be_pronoun() => Head::Pronoun { plural: false },
@@ -200,6 +199,7 @@ impl Parser<'_> {
 
     fn determiner(&mut self, word: &str, front: &mut Front) -> bool {
         match word {
+            "it" if self.is_miswritten_its(word) => front.phrase.definite = true,
             "a" | "an" => {
                 front.phrase.indefinite = true;
                 front.quantity.get_or_insert(Quantity::One);
@@ -245,6 +245,10 @@ impl Parser<'_> {
                 continue;
             }
             let words = &rest[..length];
+            // "a box of keys" is a box.
+            if words == ["box"] && self.scene.has("Box") {
+                continue;
+            }
             let singular: Vec<String> = inflect::singulars(words[length - 1]);
             let is_in = |list: &str| {
                 self.lexicon.is_small(list, words)
@@ -317,7 +321,7 @@ impl Parser<'_> {
                 continue;
             }
             let Some((next, next_plural, next_length)) = self.longest_noun() else { break };
-            if self.verb_reads_better(next_length) {
+            if self.verb_reads_better(next_length) || self.are_two_things(&noun, &next) {
                 break;
             }
             (noun, plural) = (next, next_plural);
@@ -401,7 +405,15 @@ impl Parser<'_> {
                         found.push(chosen);
                     }
                 }
-                Some(phrase) => found.push(phrase),
+                Some(phrase) => {
+                    // "both the plate and the bowl": one of each.
+                    if let [first] = found.as_mut_slice()
+                        && first.text.starts_with("both ")
+                    {
+                        first.quantity = Quantity::One;
+                    }
+                    found.push(phrase);
+                }
                 None => {
                     self.position = start;
                     return found;
@@ -433,12 +445,25 @@ impl Parser<'_> {
 
     /// The longest noun at a position.
     pub(super) fn longest_noun_at(&self, position: usize) -> Option<(Noun, bool, usize)> {
-        let rest: Vec<&str> = self.words.get(position..)?.iter().take(LONGEST).map(String::as_str).collect();
-        let usable = rest.iter().position(|w| *w == "," || *w == "." || *w == "and").unwrap_or(rest.len());
-        (1..=usable).rev().find_map(|length| {
-            self.lexicon.noun(&rest[..length]).map(|(noun, plural)| (noun.clone(), plural, length))
-        })
+        let (noun, plural, length) = (*self.nouns.get(position)?)?;
+        Some((noun.clone(), plural, length))
     }
 }
 
+/// The longest noun at a position, whether it is a plural, and its length in words.
+pub(super) type NounAt<'a> = Option<(&'a Noun, bool, usize)>;
+
+/// The longest noun at each position.
+pub(super) fn nouns<'a>(words: &'a [String], lexicon: &'a Lexicon) -> Vec<NounAt<'a>> {
+    let at = |position: usize| {
+        let rest: Vec<&str> = words[position..].iter().take(LONGEST).map(String::as_str).collect();
+        let usable = rest.iter().position(|w| [",", ".", "and"].contains(w)).unwrap_or(rest.len());
+        (1..=usable)
+            .rev()
+            .find_map(|length| lexicon.noun(&rest[..length]).map(|(noun, plural)| (noun, plural, length)))
+    };
+    (0..words.len()).map(at).collect()
+}
+
+mod mend;
 mod tail;

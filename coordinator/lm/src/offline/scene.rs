@@ -82,6 +82,11 @@ impl<'a> Scene<'a> {
         self.words.iter().map(String::as_str)
     }
 
+    /// Whether a word is one of the types' names.
+    pub fn has_word(&self, word: &str) -> bool {
+        self.words.contains(word)
+    }
+
     /// Whether an object lies, directly or not, in or on an object that satisfies a condition.
     pub fn lies_in(&self, object: &ObjectView, condition: &dyn Fn(&ObjectView) -> bool) -> bool {
         let mut frontier: Vec<&str> = object.parents.iter().map(String::as_str).collect();

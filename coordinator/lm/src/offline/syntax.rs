@@ -174,6 +174,33 @@ pub struct Clause<'a> {
 }
 
 impl Clause<'_> {
+    /// Whether one of some words is said in it.
+    pub fn says_any(&self, words: &[&str]) -> bool {
+        self.words.iter().any(|word| words.contains(&word.as_str()))
+    }
+
+    /// Whether it asks for what it says rather than tells it: "the lamp should be off", "lamp off", but not
+    /// "the lamp is off".
+    pub fn wants(&self) -> bool {
+        self.says_any(&[
+            "should", "must", "needs", "need", "shall", "be", "once", "when", "after", "before", "until",
+        ]) || !self.says_any(&["is", "are", "was", "were", "left", "s"]) && !self.says_any(&["while"])
+    }
+
+    /// What is said later but done earlier names what "it" is: "turn on the toaster after putting bread in it".
+    pub fn name_pronouns(&mut self, said_before: &Self) {
+        let [named] = said_before.objects.as_slice() else { return };
+        if !matches!(named.head, Head::Noun(_) | Head::Named(_)) {
+            return;
+        }
+        let places = self.places.iter_mut().map(|place| &mut place.phrase);
+        for phrase in self.objects.iter_mut().chain(places) {
+            if phrase.head == (Head::Pronoun { plural: false }) {
+                phrase.clone_from(named);
+            }
+        }
+    }
+
     /// "make sure no drawer is open": every one is not; "open no drawer": do not.
     pub fn deny(&mut self) {
         self.negated |= self.complement.is_empty();
@@ -187,7 +214,10 @@ impl Clause<'_> {
 }
 
 /// Prepositions, the longer first.
-const PREPOSITIONS: [(&str, Relation); 82] = [
+const PREPOSITIONS: [(&str, Relation); 85] = [
+    ("next the", Relation::Near),
+    ("next a", Relation::Near),
+    ("beside of", Relation::Near),
     ("to the left side of", Relation::Near),
     ("to the right side of", Relation::Near),
     ("to the left of", Relation::Near),

@@ -54,9 +54,13 @@ pub fn tokens(instruction: &str) -> Vec<Token> {
                 };
                 found.push(Token { text: mark.to_owned(), typed: c.to_string() });
             }
-            '&' | '+' => {
+            '&' | '+' | '/' => {
                 flush(&mut word, &mut found);
                 found.push(Token { text: "and".to_owned(), typed: c.to_string() });
+            }
+            '>' | '\u{2192}' => {
+                flush(&mut word, &mut found);
+                found.push(Token { text: "to".to_owned(), typed: c.to_string() });
             }
             _ => flush(&mut word, &mut found),
         }
@@ -75,32 +79,64 @@ pub fn repair_spelling(tokens: &mut [Token], lexicon: &Lexicon, scene: &Scene) -
             && !is_known(&token.text, lexicon, scene)
             && lexicon.longest_small("polite", &[&token.text]).is_none()
     };
-    // Where most words are strange the sentence is not misspelt but in another language.
     let unknown = tokens.iter().filter(strange).count();
     let plain = tokens.iter().filter(is_word).filter(|t| !super::syntax::is_function_word(&t.text)).count();
-    if unknown > 2 && 2 * unknown > plain {
+    if unknown > 8 && 2 * unknown > plain {
         return repairs;
     }
-    for token in tokens {
-        let word = token.text.clone();
-        if word.len() < 4 || !word.chars().all(|c| c.is_ascii_alphabetic()) || is_known(&word, lexicon, scene)
-        {
-            continue;
-        }
-        let in_scene = nearest(&word, scene.vocabulary());
-        let misspellable = |known: &&str| !lexicon.is_small("real", &[known]);
-        let in_lexicon = nearest(&word, lexicon.vocabulary().iter().map(String::as_str).filter(misspellable));
-        let best = match (in_scene, in_lexicon) {
-            (Some(scene), Some(lexicon)) if scene.1 <= lexicon.1 => Some(scene),
-            (_, Some(lexicon)) => Some(lexicon),
-            (scene, None) => scene,
-        };
-        if let Some((repaired, _)) = best {
-            token.text = repaired;
+    let mut repaired: Vec<Token> = tokens.to_vec();
+    for token in &mut repaired {
+        if let Some(text) = repair(&token.text, lexicon, scene) {
+            token.text = text;
             repairs.push(repair_note(token));
         }
     }
+    // Where most words are strange and stay so the sentence is not misspelt but in another language.
+    if unknown > 2 && 2 * unknown > plain && repairs.len() < unknown {
+        return Vec::new();
+    }
+    tokens.clone_from_slice(&repaired);
     repairs
+}
+
+/// The word that a strange one is taken for, if exactly one known word is near.
+fn repair(word: &str, lexicon: &Lexicon, scene: &Scene) -> Option<String> {
+    if word.len() < 4 || !word.chars().all(|c| c.is_ascii_alphabetic()) || is_known(word, lexicon, scene) {
+        return None;
+    }
+    // "putt": a letter struck twice.
+    let mut letters = word.chars().rev();
+    if letters.next() == letters.next() && !lexicon.verbs(&word[..word.len() - 1]).is_empty() {
+        return Some(word[..word.len() - 1].to_owned());
+    }
+    let in_scene = nearest(word, scene.vocabulary());
+    let misspellable = |known: &&str| !lexicon.is_small("real", &[known]);
+    let in_lexicon = nearest(word, lexicon.vocabulary().iter().map(String::as_str).filter(misspellable));
+    let best = match (in_scene, in_lexicon) {
+        (Some(scene), Some(lexicon)) if scene.1 <= lexicon.1 => Some(scene),
+        (_, Some(lexicon)) => Some(lexicon),
+        (scene, None) => scene,
+    };
+    best.map(|(repaired, _)| repaired)
+}
+
+/// Splits what was run together with an article: "putthe", "inthe".
+pub fn split_articles(tokens: Vec<Token>, lexicon: &Lexicon, scene: &Scene) -> Vec<Token> {
+    let mut found = Vec::with_capacity(tokens.len());
+    for token in tokens {
+        let front = token.text.strip_suffix("the").filter(|front| {
+            let is_front = !lexicon.verbs(front).is_empty() || super::syntax::preposition(&[front]).is_some();
+            front.len() > 1 && is_front && !is_known(&token.text, lexicon, scene)
+        });
+        match front {
+            Some(front) => {
+                found.push(Token { text: front.to_owned(), typed: token.typed.clone() });
+                found.push(Token { text: "the".to_owned(), typed: String::new() });
+            }
+            None => found.push(token),
+        }
+    }
+    found
 }
 
 /// How a repair is told.
@@ -132,10 +168,10 @@ pub fn is_known(word: &str, lexicon: &Lexicon, scene: &Scene) -> bool {
         || lexicon.adjective(&[word]).is_some()
         || !lexicon.verbs(word).is_empty()
         || super::inflect::number(word).is_some()
-        || scene.vocabulary().any(|known| known == word)
+        || scene.has_word(word)
         || super::inflect::singulars(word)
             .iter()
-            .any(|s| lexicon.vocabulary().contains(s) || scene.vocabulary().any(|known| known == s))
+            .any(|s| lexicon.vocabulary().contains(s) || scene.has_word(s))
 }
 
 /// The nearest of some words, if it is near enough; of equally near ones, the one of the same length and

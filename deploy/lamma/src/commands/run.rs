@@ -55,7 +55,12 @@ pub fn spec_from(common: &CommonArgs, task: Task) -> RunSpec {
         score: None,
         reference: None,
         solve_only: false,
-        lm: LmSpec { spec: common.lm.clone(), url: common.lm_url.clone(), model: common.lm_model.clone() },
+        lm: LmSpec {
+            spec: common.lm.clone(),
+            url: common.lm_url.clone(),
+            model: common.lm_model.clone(),
+            lexicon: common.lexicon.clone(),
+        },
         // Bounded by the parser of the option.
         time_limit_ms: (common.time_limit * 1e3) as u64,
         step_ms: common.step_ms,

@@ -133,6 +133,7 @@ pub fn language_model(spec: &RunSpec) -> Result<Box<dyn LanguageModel>, Failure>
         base_url: spec.lm.url.clone(),
         model: spec.lm.model.clone(),
         seed: spec.seed,
+        lexicon: spec.lm.lexicon.clone(),
         ..lamma_lm::Options::default()
     };
     lamma_lm::from_spec(&spec.lm.spec, &options).map_err(Failure::bad_input)

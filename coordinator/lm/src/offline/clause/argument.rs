@@ -1,5 +1,6 @@
 //! What stands behind a verb besides its objects: particles, complements, places.
 
+use super::super::inflect::VerbForm;
 use super::super::lexicon::{Act, Verb};
 use super::super::syntax::{
     Clause, Head, Phrase, Place, Relation, is_determiner, is_function_word, preposition,
@@ -85,6 +86,9 @@ impl<'a> Parser<'a> {
         if clause.objects.is_empty() {
             return false;
         }
+        if self.needs_doing(clause) {
+            return true;
+        }
         let start = self.position;
         while matches!(
             self.peek(),
@@ -120,12 +124,16 @@ impl<'a> Parser<'a> {
             let Some(adjective) = self.lexicon.adjective(&rest[..length]) else { continue };
             let behind = rest.get(length);
             let ends = behind.is_none_or(|next| {
-                [",", ".", "and", "then", "before", "after", "while", "but", "so", "again"].contains(next)
+                [",", ".", "and", "then", "before", "after", "while", "but", "so", "again", "please"]
+                    .contains(next)
                     || preposition(&[next]).is_some() && self.position > start
             });
             let particle = self.position == start && preposition(&rest[..length]).is_some();
             if !ends
                 || (particle
+                    && !(clause.verbs.is_empty()
+                        && clause.unknown.is_empty()
+                        && behind.is_none_or(|b| [",", ".", "and", "please"].contains(b)))
                     && clause.verbs.iter().all(|verb| verb.act != Act::Keep && verb.act != Act::Place))
             {
                 continue;
@@ -141,11 +149,32 @@ impl<'a> Parser<'a> {
         false
     }
 
+    /// "the pan needs washing"
+    fn needs_doing(&mut self, clause: &mut Clause<'a>) -> bool {
+        if !clause.verbs.is_empty() || !matches!(self.peek(), Some("needs" | "need" | "requires")) {
+            return false;
+        }
+        let Some(word) = self.word_at(1) else { return false };
+        let doing = |(form, particles, _): &(VerbForm, &[String], &Verb)| {
+            *form == VerbForm::Gerund && particles.is_empty()
+        };
+        clause.verbs = self.lexicon.verbs(word).into_iter().filter(doing).map(|(_, _, verb)| verb).collect();
+        if clause.verbs.is_empty() {
+            return false;
+        }
+        clause.verb_text = word.to_owned();
+        self.position += 2;
+        true
+    }
+
     /// A prepositional phrase.
     pub(super) fn place(&mut self, clause: &mut Clause<'a>) -> bool {
         let Some((relation, length)) = preposition(&self.rest()) else { return false };
         let start = self.position;
         self.position += length;
+        if self.another_such(clause, relation) {
+            return true;
+        }
         let Some(phrase) = self.phrase(0) else {
             // A preposition with nothing behind it is an adverb: "with a spoon inside"; or what it is in was
             // spoken of before: "put the tomato in".
@@ -161,6 +190,9 @@ impl<'a> Parser<'a> {
             }
             return true;
         };
+        if self.put_in_what(clause, relation, &phrase, start) {
+            return true;
+        }
         // "a mug in the sink with a spoon in it": the spoon is in the mug.
         if relation == Relation::With
             && self.skip_back_reference()
@@ -179,11 +211,50 @@ impl<'a> Parser<'a> {
         true
     }
 
+    /// "open the fridge and put in the apple": the apple goes into what was spoken of.
+    fn put_in_what(&self, clause: &mut Clause<'a>, relation: Relation, what: &Phrase, start: usize) -> bool {
+        let vessel = matches!(&what.head, Head::Noun(noun) if self.has_affordance(noun, "receptacle"));
+        let ends = self.peek().is_none_or(|word| [".", ",", "and", "then"].contains(&word));
+        let inward = relation == Relation::In && matches!(self.words[start].as_str(), "in" | "inside");
+        if !(self.wants_place && inward && ends && clause.objects.is_empty() && clause.places.is_empty())
+            || vessel
+            || !self.is_movable(what)
+        {
+            return false;
+        }
+        clause.objects.push(what.clone());
+        let it = Phrase::bare(Head::Pronoun { plural: false }, "it");
+        clause.places.push(Place::new(Relation::In, "in", it));
+        true
+    }
+
+    /// "from one table to another (one)": the noun was said with "from".
+    fn another_such(&mut self, clause: &mut Clause<'a>, relation: Relation) -> bool {
+        let length = match (self.peek(), self.word_at(1)) {
+            (Some("another"), Some("one")) => 2,
+            (Some("another"), next)
+                if self.longest_noun_at(self.position + 1).is_none() && next != Some("of") =>
+            {
+                1
+            }
+            (Some("the"), Some("other")) if self.longest_noun_at(self.position + 2).is_none() => 2,
+            _ => return false,
+        };
+        let from = clause.places.iter().find(|place| place.relation == Relation::From);
+        let Some(from) = from.or(clause.places.first()) else { return false };
+        let mut phrase = from.phrase.clone();
+        phrase.other = true;
+        (phrase.definite, phrase.indefinite) = (false, true);
+        clause.places.push(Place::new(relation, "to", phrase));
+        self.position += length;
+        true
+    }
+
     /// "in the fridge and the microwave": more of the same, unless a clause or another object follows.
     pub(super) fn more_places(&mut self, clause: &mut Clause<'a>, relation: Relation) {
         loop {
             let start = self.position;
-            if !self.skip_joins() || self.clause_starts_here(false) {
+            if !self.skip_joins() || self.clause_starts_here(false) || preposition(&self.rest()).is_some() {
                 self.position = start;
                 return;
             }
@@ -244,7 +315,9 @@ impl<'a> Parser<'a> {
             .filter(|(_, particles, _)| particles.len() == 1 && particles[0] == word)
             .map(|(_, _, verb)| verb)
             .collect();
-        if !verbs.is_empty() && self.word_at(1).is_none_or(|next| !is_determiner(next)) {
+        let alone = self.word_at(1).is_none_or(|next| !is_determiner(next))
+            && self.longest_noun_at(self.position + 1).is_none();
+        if !verbs.is_empty() && alone {
             clause.verbs = verbs;
             clause.verb_text = format!("{first} {word}");
             clause.unknown.clear();

@@ -34,13 +34,17 @@ impl<'a> Interpreter<'_, 'a> {
             let phrases: Vec<&Phrase> = clause.objects.iter().filter(is_here).collect();
             let objects =
                 phrases.into_iter().flat_map(|phrase| self.discourse.mention(phrase, &[], None)).collect();
-            return Spoken { objects, ..Spoken::default() };
+            let places = self.places_spoken_of(&clause.places);
+            return Spoken { objects, places, ..Spoken::default() };
         }
         let known = self.discourse.entities.len();
         let wants = verb.and_then(|verb| verb.wants.as_deref());
         let mut entities = Vec::new();
+        let mut said = Vec::new();
         for phrase in &clause.objects {
+            let wants = wants.filter(|wants| *wants != "breakable");
             for entity in self.discourse.mention(phrase, &[], wants) {
+                said.push(entity);
                 let fresh = entity >= known && phrase.quantity == Quantity::One;
                 let thing = &mut self.discourse.entities[entity];
                 if fresh && thing.which == Which::Any && self.discourse.scene.of_kind(thing.kind()).len() > 1
@@ -56,7 +60,7 @@ impl<'a> Interpreter<'_, 'a> {
             entities: entities.clone(),
             states,
         });
-        Spoken { objects: entities, ..Spoken::default() }
+        Spoken { objects: entities, places: said, ..Spoken::default() }
     }
 
     /// Turns bans into goals for the end, once everything is known; asks where the rest breaks one.

@@ -61,7 +61,7 @@ impl<'a> Interpreter<'_, 'a> {
                 Some(home) => {
                     let place = self.discourse.place_of_kind(&home);
                     if verb.act != Act::Discard {
-                        self.discourse.assume(format!("the place for the {kind} is the {home}"), 0.8);
+                        self.discourse.assume(format!("the place for the {kind} is the {home}"), 0.96);
                     }
                     self.put_in(entity, place);
                     places.push(place);
@@ -73,7 +73,7 @@ impl<'a> Interpreter<'_, 'a> {
                 }
             }
         }
-        Spoken { objects, placed: !places.is_empty(), places }
+        Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
     }
 
     /// "go to the fridge and open it": going is no goal, but "it" is the fridge.
@@ -84,7 +84,8 @@ impl<'a> Interpreter<'_, 'a> {
             .and_then(|next| next.verbs.iter().find_map(|verb| verb.wants.as_deref()))
             .filter(|wants| ["openable", "toggleable"].contains(wants))
         else {
-            return Spoken::default();
+            let reached = self.receptacles_spoken_of(clause);
+            return Spoken { reached, ..Spoken::default() };
         };
         let scene = self.discourse.scene;
         let fits = |phrase: &Phrase| match &phrase.head {
@@ -96,6 +97,14 @@ impl<'a> Interpreter<'_, 'a> {
         let places =
             target.map(|phrase| self.discourse.mention(phrase, &[], Some(wants))).unwrap_or_default();
         Spoken { places, ..Spoken::default() }
+    }
+
+    /// The receptacles that a clause names, for "in it" later.
+    fn receptacles_spoken_of(&mut self, clause: &Clause<'a>) -> Vec<usize> {
+        let scene = self.discourse.scene;
+        let takes = |phrase: &&Phrase| matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")));
+        let named = clause.places.iter().map(|place| &place.phrase).chain(&clause.objects).find(takes);
+        named.map(|phrase| self.discourse.mention(phrase, &[], Some("receptacle"))).unwrap_or_default()
     }
 
     /// The goal, the movable receptacle it is reached in, and the places that say where things were.
@@ -165,7 +174,7 @@ impl<'a> Interpreter<'_, 'a> {
                 }
             }
         }
-        Spoken { objects, placed: !places.is_empty(), places }
+        Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
     }
 
     /// "everything in the fridge": what the fridge takes.
@@ -194,7 +203,7 @@ impl<'a> Interpreter<'_, 'a> {
         if let (Some(&carrier), Some(&place)) = (spoken.places.first(), places.first()) {
             self.put_in(carrier, place);
         }
-        Spoken { objects: spoken.objects, places: spoken.places, placed: true }
+        Spoken { objects: spoken.objects, places: spoken.places, placed: true, ..Spoken::default() }
     }
 
     /// Places one thing, and lets what the receptacle takes decide what both are.
@@ -218,7 +227,7 @@ impl<'a> Interpreter<'_, 'a> {
             for &entity in &objects {
                 self.put_in(entity, place);
             }
-            return Spoken { objects, places: vec![place], placed: true };
+            return Spoken { objects, places: vec![place], placed: true, ..Spoken::default() };
         }
         let under =
             reference.as_deref().filter(|_| near.under).and_then(|kind| self.discourse.lexicon.under(kind));
@@ -246,7 +255,7 @@ impl<'a> Interpreter<'_, 'a> {
         for &entity in &objects {
             self.put_in(entity, place);
         }
-        Spoken { objects, places: vec![place], placed: true }
+        Spoken { objects, places: vec![place], placed: true, ..Spoken::default() }
     }
 
     fn home_of(&self, kind: &str) -> Option<String> {

@@ -53,7 +53,7 @@ impl Discourse<'_> {
         let Some((_, _, chosen)) = best else {
             let (thing, place) =
                 (self.entities[entity].kind().to_owned(), self.entities[place].kind().to_owned());
-            self.assume(format!("a {place} is not known to take a {thing}"), 0.8);
+            self.assume(format!("a {place} is not known to take a {thing}"), 0.93);
             return;
         };
         let chosen = chosen.to_owned();

@@ -94,9 +94,14 @@ impl Discourse<'_> {
             }
         }
         for spoken in self.spoken.iter().rev() {
-            for group in [&spoken.objects, &spoken.places] {
+            let reached = if matches!(wants, Some("receptacle" | "openable")) {
+                spoken.reached.as_slice()
+            } else {
+                &[]
+            };
+            for group in [spoken.objects.as_slice(), &spoken.places, reached] {
                 if fits(self, group) {
-                    return group.clone();
+                    return group.to_vec();
                 }
             }
         }

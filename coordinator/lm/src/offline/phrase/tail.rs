@@ -1,6 +1,7 @@
 //! What follows the head of a noun phrase: contents, places, exceptions.
 
 use super::super::clause::Parser;
+use super::super::lexicon::Noun;
 use super::super::syntax::{Head, Phrase, Place, Quantity, preposition};
 
 impl Parser<'_> {
@@ -12,7 +13,7 @@ impl Parser<'_> {
                 Some("of") => {
                     self.position += 1;
                     if let Some(of) = self.phrase(depth + 1) {
-                        merge_of(phrase, of);
+                        self.merge_of(phrase, of);
                     }
                 }
                 Some(",")
@@ -116,21 +117,30 @@ impl Parser<'_> {
             }
         }
     }
-}
 
-/// "N1 of N2": the same thing said twice ("the light of the lamp") is N2; otherwise N2 is what N1 holds, or
-/// only says which N1 is meant.
-fn merge_of(phrase: &mut Phrase, of: Phrase) {
-    let overlap = match (&phrase.head, &of.head) {
-        (Head::Noun(a), Head::Noun(b)) => a.kinds.iter().any(|kind| b.kinds.contains(kind)),
-        _ => false,
-    };
-    if overlap {
-        phrase.head = of.head;
-    } else if matches!(phrase.head, Head::Slices) {
-        phrase.head = of.head;
-        phrase.quantity = if phrase.quantity == Quantity::All { Quantity::One } else { phrase.quantity };
-    } else {
-        phrase.with.push(of);
+    /// "N1 of N2": the same thing said twice ("the light of the lamp") is N2; otherwise N2 is what N1 holds, or
+    /// only says which N1 is meant ("the drawer of the desk").
+    fn merge_of(&self, phrase: &mut Phrase, of: Phrase) {
+        let overlap = match (&phrase.head, &of.head) {
+            (Head::Noun(a), Head::Noun(b)) => {
+                a.kinds.iter().any(|kind| b.kinds.contains(kind)) && !self.is_compartment(a)
+            }
+            _ => false,
+        };
+        if overlap {
+            phrase.head = of.head;
+        } else if matches!(phrase.head, Head::Slices) {
+            phrase.head = of.head;
+            phrase.quantity = if phrase.quantity == Quantity::All { Quantity::One } else { phrase.quantity };
+        } else {
+            phrase.with.push(of);
+        }
+    }
+
+    /// Whether a noun is first of all a compartment that the scene has.
+    fn is_compartment(&self, noun: &Noun) -> bool {
+        noun.kinds.first().is_some_and(|kind| {
+            self.scene.has(kind) && self.lexicon.is_small("compartments", &[&kind.to_lowercase()])
+        })
     }
 }

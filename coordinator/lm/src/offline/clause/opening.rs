@@ -1,0 +1,114 @@
+//! What opens a clause: joins, politeness, order words, negation, who is spoken to.
+
+use super::super::syntax::Link;
+use super::Parser;
+
+/// What opens a clause.
+pub(super) struct Opening {
+    pub(super) link: Link,
+    pub(super) negated: bool,
+    pub(super) condition: bool,
+    pub(super) robots: Vec<String>,
+    /// `before you …, …`: this clause comes after the next.
+    pub(super) after_next: bool,
+    /// `… after you …`: this clause comes before the one said before it.
+    pub(super) before_previous: bool,
+}
+
+impl Parser<'_> {
+    /// Passes over joins and politeness, and notes the order they state.
+    pub(super) fn opening(&mut self, first: bool) -> Opening {
+        let mut opening = Opening {
+            link: Link::And,
+            negated: false,
+            condition: false,
+            robots: Vec::new(),
+            after_next: false,
+            before_previous: false,
+        };
+        while let Some(word) = self.peek() {
+            let rest = self.rest();
+            if let Some(length) = self.lexicon.longest_small("sequence", &rest)
+                && !(length == 1 && self.longest_noun().is_some())
+            {
+                opening.link = Link::Then;
+                self.position += length;
+                continue;
+            }
+            if let Some(length) = self.lexicon.longest_small("parallel", &rest) {
+                if word != "as" {
+                    opening.link = Link::While;
+                }
+                self.position += length;
+                continue;
+            }
+            let polite = self.lexicon.longest_small("polite", &rest);
+            if let Some(length) = polite.filter(|&length| length > 1) {
+                self.position += length;
+                continue;
+            }
+            if let Some(robot) = self.robot() {
+                opening.robots.push(robot);
+                continue;
+            }
+            if self.reason() {
+                continue;
+            }
+            match word {
+                "let" if self.ahead(1).verbs_here().is_some() => {}
+                "should" | "shall" | "must" | "can" | "has" | "will" if !opening.robots.is_empty() => {}
+                "have" | "let" if self.ahead(1).robot().is_some() => {}
+                "if" => {
+                    opening.condition = true;
+                    opening.before_previous = !first;
+                }
+                "to" if self.word_at(1) == Some("be") && self.word_at(2).is_some() => self.position += 1,
+                "," | "." | "and" | "so" | "but" | "plus" | "first" | "firstly" | "to" | "you" | "i"
+                | "we" => {}
+                "before" => {
+                    if first {
+                        opening.after_next = true;
+                    } else {
+                        opening.link = Link::Then;
+                    }
+                }
+                "after" | "once" | "when" => {
+                    if first {
+                        // The next clause follows by its position.
+                    } else {
+                        opening.before_previous = true;
+                    }
+                }
+                "do" | "does" if matches!(self.word_at(1), Some("not")) => {
+                    opening.negated = true;
+                    self.position += 1;
+                }
+                "dont" | "never" | "without" | "not" | "avoid" => opening.negated = true,
+                _ => match polite {
+                    Some(length) => {
+                        self.position += length;
+                        continue;
+                    }
+                    None => break,
+                },
+            }
+            self.position += 1;
+        }
+        opening
+    }
+
+    /// "so I can see", "because it is late": passes over why.
+    fn reason(&mut self) -> bool {
+        const PERSONS: [&str; 10] =
+            ["i", "we", "you", "he", "she", "they", "it", "that", "nobody", "everyone"];
+        let why = match self.peek() {
+            Some("because") => true,
+            Some("so" | "since") => self.word_at(1).is_some_and(|word| PERSONS.contains(&word)),
+            _ => false,
+        };
+        while why && self.peek().is_some_and(|word| word != "." && word != ",") {
+            self.position += 1;
+        }
+        why
+    }
+}

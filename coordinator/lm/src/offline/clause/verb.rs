@@ -1,0 +1,181 @@
+//! Verbs: which one stands here, with which particle, and whether it begins a clause.
+
+use super::super::inflect::{self, VerbForm};
+use super::super::lexicon::{Act, Noun, Verb};
+use super::super::syntax::{is_determiner, is_function_word, preposition};
+use super::Parser;
+
+impl<'a> Parser<'a> {
+    /// The verbs at the position and how many words they take, the particle-rich first.
+    pub(in crate::offline) fn verbs_here(&self) -> Option<(VerbForm, Vec<&'a Verb>, usize)> {
+        let word = self.peek()?;
+        let candidates = self.lexicon.verbs(word);
+        let behind: Vec<&str> = self.rest().into_iter().skip(1).collect();
+        let contiguous = candidates.iter().find(|(_, particles, verb)| {
+            particles.len() <= behind.len()
+                && particles.iter().zip(&behind).all(|(a, b)| a == b)
+                && self.object_may_fit(particles, verb)
+        });
+        let Some((form, particles, _)) = contiguous else { return self.verb_apart(&candidates) };
+        let (form, length) = (*form, particles.len());
+        let verbs = candidates
+            .iter()
+            .filter(|(_, other, _)| other.len() == length && other.iter().zip(&behind).all(|(a, b)| a == b))
+            .map(|(_, _, verb)| *verb)
+            .collect();
+        Some((form, verbs, length + 1))
+    }
+
+    /// "switch the light on": a verb that needs its particle, which stands behind the object.
+    fn verb_apart(
+        &self,
+        candidates: &[(VerbForm, &'a [String], &'a Verb)],
+    ) -> Option<(VerbForm, Vec<&'a Verb>, usize)> {
+        let behind: Vec<&str> = self.words[self.position + 1..]
+            .iter()
+            .map(String::as_str)
+            .take(8)
+            .take_while(|word| ![".", ",", "then", "if"].contains(word))
+            .collect();
+        let (form, particles, _) = candidates
+            .iter()
+            .find(|(_, particles, _)| particles.len() == 1 && behind.contains(&particles[0].as_str()))?;
+        let verbs =
+            candidates.iter().filter(|(_, other, _)| other == particles).map(|(_, _, verb)| *verb).collect();
+        Some((*form, verbs, 1))
+    }
+
+    /// "put on the light" switches; "put on the table" puts: what follows decides.
+    fn object_may_fit(&self, particles: &[String], verb: &Verb) -> bool {
+        let (Some(wants), [particle]) = (&verb.wants, particles) else { return true };
+        if preposition(&[particle]).is_none() {
+            return true;
+        }
+        let nouns: Vec<_> = (self.position + 2..self.position + 8)
+            .take_while(|&at| {
+                self.words.get(at).is_some_and(|word| {
+                    preposition(&[word]).is_none() && !["and", ",", ".", "while"].contains(&word.as_str())
+                })
+            })
+            .filter_map(|at| self.longest_noun_at(at))
+            .collect();
+        // What is not here can be anything, unless the bare verb would put things there.
+        let puts =
+            |word| self.lexicon.verbs(word).iter().any(|(_, p, v)| p.is_empty() && v.act == Act::Place);
+        let open = !self.peek().is_some_and(puts);
+        nouns.is_empty()
+            || nouns.iter().any(|(noun, _, _)| self.can_be(noun, wants) || open && self.is_absent(noun))
+    }
+
+    pub(in crate::offline) fn can_be(&self, noun: &Noun, wants: &str) -> bool {
+        self.has_affordance(noun, wants)
+            || wants == "toggleable" && noun.kinds.iter().any(|kind| self.lexicon.control(kind).is_some())
+    }
+
+    /// Whether a clause rather than another noun phrase starts at the position.
+    pub(in crate::offline) fn clause_starts_here(&self, first: bool) -> bool {
+        let Some(word) = self.peek() else { return true };
+        if [".", "then", "before", "after", "while", "when", "once", "until", "but", "dont", "without"]
+            .contains(&word)
+        {
+            return true;
+        }
+        let rest = self.rest();
+        let negation = word == "never" || rest.starts_with(&["do", "not"]);
+        if negation
+            || self.robot_opens()
+            || self.lexicon.longest_small("sequence", &rest).is_some()
+            || self.lexicon.longest_small("parallel", &rest).is_some()
+        {
+            return true;
+        }
+        let Some((form, verbs, length)) = self.verbs_here() else {
+            return self.lexicon.longest_small("polite", &rest).is_some();
+        };
+        let next = self.word_at(length);
+        if self.is_switched_thing() {
+            return false;
+        }
+        let determined =
+            next.is_some_and(|next| is_determiner(next) || ["it", "them", "everything"].contains(&next));
+        let noun = self.longest_noun();
+        if noun.as_ref().is_some_and(|(_, _, noun_length)| *noun_length > length)
+            && !(first && self.noun_begins(length))
+        {
+            return false;
+        }
+        if form == VerbForm::Past {
+            // "to be sliced and put in the pan": the passive goes on.
+            let to_somewhere = next.is_some_and(|next| preposition(&[next]).is_some());
+            return first || determined || to_somewhere && noun.is_none();
+        }
+        if noun.is_some() {
+            // A word that is noun and verb is a verb when something to do it to follows at once.
+            return first || determined || self.noun_begins(length);
+        }
+        if self.lexicon.adjective(&[word]).is_some() {
+            return first || determined || (!self.wants_place && self.noun_begins(length));
+        }
+        !verbs.is_empty()
+    }
+
+    /// "lights off", "microwave on please": a thing and its switch, not a verb and its particle.
+    fn is_switched_thing(&self) -> bool {
+        let Some((_, _, length)) = self.longest_noun() else { return false };
+        let ends = self.word_at(length + 1).is_none_or(|next| [".", ",", "and", "please"].contains(&next));
+        matches!(self.word_at(length), Some("on" | "off")) && ends
+    }
+
+    /// Whether a noun phrase without a determiner starts behind some words.
+    fn noun_begins(&self, offset: usize) -> bool {
+        let at = self.position + offset;
+        let Some(word) = self.words.get(at).map(String::as_str) else { return false };
+        if preposition(&[word]).is_some() || word == "and" || word == "," {
+            return false;
+        }
+        self.longest_noun_at(at).is_some()
+            || inflect::number(word).is_some()
+            || self.lexicon.adjective(&[word]).is_some()
+            || self.lexicon.is_small("slices", &[word])
+    }
+
+    /// A word that is no verb where one is due, a letter away from one: "was the spoon", "pit it on the desk".
+    pub(super) fn miswritten_verb(&mut self) -> Option<(String, Vec<&'a Verb>)> {
+        let word = self.peek()?;
+        let next = self.word_at(1)?;
+        let due = is_determiner(next) || next == "it" || next == "them" || self.noun_begins(1);
+        if !due
+            || word.len() < 3
+            || self.longest_noun().is_some()
+            || is_function_word(word) && word != "was"
+            || self.lexicon.adjective(&[word]).is_some()
+            || self.lexicon.is_small("real", &[word])
+            || word != "was" && self.lexicon.vocabulary().contains(word)
+        {
+            return None;
+        }
+        let (meant, verbs) = self.lexicon.near_verb(word)?;
+        self.choices.push(format!("read \"{word}\" as \"{meant}\""));
+        Some((meant.to_owned(), verbs))
+    }
+
+    /// "give the cup a quick rinse": the verb is the noun.
+    pub(super) fn give_a_doing(&self) -> Option<(Vec<&'a Verb>, String)> {
+        if !matches!(self.peek(), Some("give" | "giving")) {
+            return None;
+        }
+        let at = (2..8).find(|&at| self.word_at(at) == Some("a"))?;
+        let at = if self.lexicon.is_small("modifiers", &[self.word_at(at + 1)?])
+            || self.word_at(at + 1) == Some("quick")
+        {
+            at + 2
+        } else {
+            at + 1
+        };
+        let word = self.word_at(at)?;
+        let changes = |verb: &&Verb| matches!(verb.act, Act::Set | Act::Heat | Act::Chill);
+        let bare = self.lexicon.verbs(word).into_iter().filter(|(_, particles, _)| particles.is_empty());
+        let verbs: Vec<&Verb> = bare.map(|(_, _, verb)| verb).filter(changes).collect();
+        (!verbs.is_empty()).then(|| (verbs, word.to_owned()))
+    }
+}

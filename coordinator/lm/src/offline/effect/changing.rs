@@ -1,0 +1,181 @@
+//! Verbs that change what a thing is: washed, cut, heated, switched, filled.
+
+use lamma_domains::goal::PropertyValue;
+
+use super::super::lexicon::{Act, Settings, Verb};
+use super::super::mention::Spoken;
+use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
+use super::{Change, Interpreter};
+
+impl<'a> Interpreter<'_, 'a> {
+    pub(super) fn set(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
+        if verb.set.get("isToggled") == Some(&super::super::yes()) && clause.places.iter().any(is_a_while) {
+            let text = format!("\"{}\" does not last, so it is no goal", clause.text);
+            self.discourse.assume(text, 0.98);
+            return self.only_mention(clause);
+        }
+        let is_tool = |place: &Place| matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| verb.tools.contains(kind)));
+        let at: Vec<Place> = clause
+            .places
+            .iter()
+            .filter(|place| !is_tool(place) && matches!(place.relation, Relation::In | Relation::From))
+            .cloned()
+            .collect();
+        let objects = self.objects(clause, &at, verb.wants.as_deref());
+        let mut changed = Vec::new();
+        let microwaved = verb.act == Act::Cook && clause.places.iter().any(is_microwave);
+        for &entity in &objects {
+            let target = self.switch_of(entity, &verb.set);
+            let mut states = self.discourse.adapted_states(target, verb);
+            if microwaved && states.remove("isCooked").is_some() {
+                states.insert("temperature".to_owned(), PropertyValue::Word("Hot".to_owned()));
+            }
+            self.add_states(target, &states);
+            self.discourse.entities[target].asked.extend(states);
+            changed.push(target);
+        }
+        for place in clause.places.iter().filter(|place| is_tool(place)) {
+            if matches!(verb.act, Act::Heat | Act::Cook) && verb.device.is_none() {
+                let text = &place.phrase.text;
+                self.discourse
+                    .assume(format!("\"{text}\" is not part of the goal: any source of heat will do"), 0.99);
+            }
+        }
+        if verb.wants.as_deref() == Some("sliceable")
+            || clause.places.iter().any(|p| p.relation == Relation::To)
+        {
+            self.stay_where_cut(clause, verb, &changed);
+        }
+        self.put_down_tools(verb);
+        self.hold_what_is_with(clause, verb);
+        let places = self.places_spoken_of(&clause.places);
+        Spoken { objects: changed, places, placed: false, ..Spoken::default() }
+    }
+
+    /// "slice the potato on the table": it is on the table when it is done.
+    fn stay_where_cut(&mut self, clause: &Clause<'a>, verb: &Verb, objects: &[usize]) {
+        let scene = self.discourse.scene;
+        let cuts = verb.wants.as_deref() == Some("sliceable");
+        let is_tool = |place: &Place| matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| verb.tools.contains(kind)));
+        let takes = |place: &&Place| {
+            (place.relation == Relation::In && cuts || place.relation == Relation::To && !is_tool(place))
+                && matches!(&place.phrase.head, Head::Noun(noun)
+                    if noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")))
+        };
+        let Some(place) = clause.places.iter().find(takes) else { return };
+        if let [place, ..] = self.discourse.mention(&place.phrase, &[], Some("receptacle"))[..] {
+            for &entity in objects.iter().filter(|&&entity| entity != place) {
+                self.discourse.fit(entity, place);
+                self.add(entity, Change::Inside(place));
+            }
+        }
+    }
+
+    /// What was picked up as the verb's tool is not held for its own sake.
+    fn put_down_tools(&mut self, verb: &Verb) {
+        let entities = &self.discourse.entities;
+        self.facts.retain(|fact| {
+            fact.change != Change::Held
+                || !entities[fact.entity].kinds.iter().any(|kind| verb.tools.contains(kind))
+        });
+    }
+
+    /// "turn on the lamp with a book in hand": the book is held.
+    fn hold_what_is_with(&mut self, clause: &Clause<'a>, verb: &Verb) {
+        if verb.wants.as_deref() != Some("toggleable") {
+            return;
+        }
+        let with = clause.objects.iter().flat_map(|phrase| &phrase.with);
+        let places = clause.places.iter().filter(|place| place.relation == Relation::With);
+        let phrases: Vec<Phrase> = with.chain(places.map(|place| &place.phrase)).cloned().collect();
+        for phrase in phrases {
+            let held = self.discourse.mention(&phrase, &[], Some("pickupable"));
+            self.take(&held);
+        }
+    }
+
+    /// What is switched when an entity is to be on or off.
+    pub(super) fn switch_of(&mut self, entity: usize, states: &Settings) -> usize {
+        let kind = self.discourse.entities[entity].kind().to_owned();
+        let control = self.discourse.lexicon.control(&kind).map(str::to_owned);
+        match control {
+            Some(control) if states.contains_key("isToggled") && self.discourse.scene.has(&control) => {
+                let on = states.get("isToggled") == Some(&super::super::yes());
+                self.discourse.control(entity, control, on)
+            }
+            _ => entity,
+        }
+    }
+
+    pub(super) fn fill(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
+        let liquid_of = |phrase: &Phrase| match &phrase.head {
+            Head::Liquid(liquid) => Some(liquid.clone()),
+            Head::Noun(noun) if ["water", "wine", "coffee"].contains(&noun.word.as_str()) => {
+                Some(noun.word.clone())
+            }
+            _ => None,
+        };
+        let said = clause
+            .objects
+            .iter()
+            .flat_map(|phrase| std::iter::once(phrase).chain(&phrase.with))
+            .chain(clause.places.iter().map(|place| &place.phrase))
+            .find_map(liquid_of);
+        let vessels: Vec<Phrase> =
+            clause.objects.iter().filter(|phrase| liquid_of(phrase).is_none()).cloned().collect();
+        let mut fill = clause.clone();
+        if verb.act == Act::Pour || vessels.is_empty() {
+            fill.objects = clause
+                .places
+                .iter()
+                .filter(|place| {
+                    matches!(place.relation, Relation::In | Relation::To)
+                        && liquid_of(&place.phrase).is_none()
+                })
+                .map(|place| place.phrase.clone())
+                .collect();
+        } else {
+            fill.objects = vessels;
+        }
+        let solid =
+            clause.objects.iter().any(|phrase| phrase.with.iter().any(|with| liquid_of(with).is_none()));
+        let objects = self.objects(&fill, &[], Some("canFillWithLiquid"));
+        if said.is_none() && solid {
+            return Spoken { objects, ..Spoken::default() };
+        }
+        let liquid = said.unwrap_or_else(|| {
+            self.discourse.assume("it is filled with water".to_owned(), 0.98);
+            "water".to_owned()
+        });
+        for &entity in &objects {
+            self.add(entity, Change::State("isFilledWithLiquid".to_owned(), super::super::yes()));
+            self.add(entity, Change::State("fillLiquid".to_owned(), PropertyValue::Word(liquid.clone())));
+        }
+        Spoken { objects, ..Spoken::default() }
+    }
+
+    pub(super) fn empty(&mut self, clause: &Clause<'a>) -> Spoken {
+        let objects = self.objects(clause, &clause.places, Some("canFillWithLiquid"));
+        for &entity in &objects {
+            let kind = self.discourse.entities[entity].kind().to_owned();
+            if self.discourse.scene.affords(&kind, "canFillWithLiquid") {
+                self.add(entity, Change::State("isFilledWithLiquid".to_owned(), super::super::no()));
+            } else {
+                self.discourse.problem(format!("a {kind} holds no liquid to pour out"), 0.3);
+            }
+        }
+        Spoken { objects, ..Spoken::default() }
+    }
+}
+
+/// "for a few seconds"
+fn is_a_while(place: &Place) -> bool {
+    const TIMES: [&str; 8] = ["second", "seconds", "minute", "minutes", "moment", "while", "bit", "time"];
+    place.relation == Relation::For
+        && matches!(&place.phrase.head, Head::Unknown(word) if TIMES.contains(&word.as_str()))
+}
+
+/// Whether a place is a microwave: what is cooked there is heated, and that cooks what can be cooked.
+fn is_microwave(place: &Place) -> bool {
+    matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.first().is_some_and(|kind| kind == "Microwave"))
+}

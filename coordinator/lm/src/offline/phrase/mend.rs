@@ -1,0 +1,72 @@
+//! What is left out or miswritten in a noun phrase.
+
+use super::super::clause::Parser;
+use super::super::lexicon::Noun;
+use super::super::scene::Scene;
+use super::super::syntax::{Quantity, preposition};
+use super::Front;
+
+impl Parser<'_> {
+    /// "the leftmost, lower drawer": a comma between modifiers.
+    pub(super) fn list_of_modifiers(&self) -> bool {
+        let before = self.position.checked_sub(1).and_then(|at| self.words.get(at));
+        let is_modifier = |word: &str| {
+            self.lexicon.is_small("modifiers", &[word]) || self.lexicon.adjective(&[word]).is_some()
+        };
+        before.is_some_and(|word| is_modifier(word))
+            && self.word_at(1).is_some_and(is_modifier)
+            && (2..5).any(|at| self.longest_noun_at(self.position + at).is_some())
+    }
+
+    /// "a full and an empty roll", "a white and a gold bottle": two of them.
+    pub(super) fn two_kinds(&mut self, front: &mut Front) -> bool {
+        let (Some(one), Some("and")) = (self.peek(), self.word_at(1)) else { return false };
+        let apart = self.word_at(2).is_some_and(|word| ["a", "an", "one"].contains(&word));
+        let length = if apart { 4 } else { 3 };
+        let Some(other) = self.word_at(length - 1) else { return false };
+        let opposite = match (self.lexicon.adjective(&[one]), self.lexicon.adjective(&[other])) {
+            (Some(a), Some(b)) => a.set.iter().any(|(p, v)| b.set.get(p).is_some_and(|w| w != v)),
+            _ => false,
+        };
+        let is_modifier = |word: &str| self.lexicon.is_small("modifiers", &[word]);
+        let different = apart && one != other && is_modifier(one) && is_modifier(other);
+        if !(opposite || different) || !self.noun_follows(length) {
+            return false;
+        }
+        front.quantity = Some(Quantity::Count(2));
+        self.position += length;
+        true
+    }
+
+    /// A verb where a noun is due, a letter away from what the scene has: "put the clean put on the stove".
+    pub(super) fn miswritten_noun(&self, word: &str) -> Option<Noun> {
+        let letters: Vec<char> = word.chars().collect();
+        let near = |known: &&str| {
+            let other: Vec<char> = known.chars().collect();
+            other.len() >= 3 && super::super::text::damerau_levenshtein(&letters, &other) == 1
+        };
+        let meant = self.scene.vocabulary().find(near)?;
+        self.lexicon.noun(&[meant]).map(|(noun, _)| noun.clone())
+    }
+
+    /// "from it's hanger": a possessive, miswritten.
+    pub(super) fn is_miswritten_its(&self, word: &str) -> bool {
+        let before = self.position.checked_sub(1).and_then(|at| self.words.get(at));
+        word == "it"
+            && before.is_some_and(|before| preposition(&[before]).is_some())
+            && self.longest_noun_at(self.position + 1).is_some()
+    }
+
+    /// "bread butterknife and fork": a list without its commas, not a bread's knife.
+    pub(super) fn are_two_things(&self, one: &Noun, other: &Noun) -> bool {
+        let here = |noun: &Noun| {
+            !noun.class && noun.kinds.first().is_some_and(|kind| self.scene.affords(kind, "pickupable"))
+        };
+        let vessel = noun_affords(self.scene, other, "receptacle");
+        here(one) && here(other) && !vessel && !one.kinds.iter().any(|kind| other.kinds.contains(kind))
+    }
+}
+
+fn noun_affords(scene: &Scene<'_>, noun: &Noun, affordance: &str) -> bool {
+    noun.kinds.iter().any(|kind| scene.affords(kind, affordance))
+}
