@@ -8,7 +8,7 @@ use lamma_pddl::ast::{Domain, Problem};
 use lamma_pddl::{Report, check_domain, check_problem, parse_domain, parse_problem};
 use lamma_planner::validate::CostKind;
 use lamma_planner::{
-    Engine, GroundLimits, Limits, Outcome, SearchOptions, ground, solve, write_plan, write_sas,
+    Engine, GroundError, Limits, Outcome, SearchOptions, ground, solve, write_plan, write_sas,
 };
 
 use crate::cli::PlanArgs;
@@ -75,13 +75,20 @@ pub fn plan(args: &PlanArgs) -> Result<u8, Failure> {
         memory_bytes: args.memory_limit.map(|mib| mib << 20),
     };
     let options = SearchOptions { engine: engine(&args.search)?, ..SearchOptions::default() };
-    let grounded =
-        ground(&task.domain, &task.problem, &GroundLimits::default()).map_err(Failure::bad_input)?;
+    let cancel = AtomicBool::new(false);
+    let grounding = limits.for_grounding(&cancel);
+    let grounded = match ground(&task.domain, &task.problem, &grounding) {
+        Err(reason @ (GroundError::GaveUp(_) | GroundError::TooLarge { .. })) => {
+            eprintln!("gave up: {reason}");
+            return Ok(exit::GAVE_UP);
+        }
+        grounded => grounded.map_err(Failure::bad_input)?,
+    };
     if args.sas {
         say(write_sas(&grounded).trim_end());
         return Ok(exit::SUCCESS);
     }
-    let outcome = solve(&grounded, &options, &limits, &AtomicBool::new(false));
+    let outcome = solve(&grounded, &options, &limits.after(&grounding), &cancel);
     match outcome {
         Outcome::Found(plan) => {
             let verdict = lamma_planner::validate::validate(&task.domain, &task.problem, &plan.acts)

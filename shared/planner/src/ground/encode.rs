@@ -1,8 +1,9 @@
 //! From propositions to finite-domain variables packed into words.
 
-use super::GroundError;
+use super::limits::Ticks;
 use super::propositional::{Ground, GroundOperator, Lit, Stretch};
 use super::relation::Relation;
+use super::{GroundError, GroundLimits};
 use crate::lifted::Lifted;
 use crate::numeric::NumericEffect;
 use crate::task::{AtomText, Axiom, ConditionalEffect, Fact, FactId, Names, Operator, Task, Variable, Write};
@@ -16,6 +17,7 @@ pub(crate) fn encode(
     relations: &[Relation],
     ground: Ground,
     groups: &[Vec<u32>],
+    limits: &GroundLimits<'_>,
 ) -> Result<Task, GroundError> {
     let mut encoder = Encoder {
         task: Task {
@@ -34,7 +36,7 @@ pub(crate) fn encode(
     encoder.variables(groups);
     encoder.initial_state();
     let numbers = encoder.numbers();
-    encoder.operators(&numbers);
+    encoder.operators(&numbers, limits)?;
     encoder.axioms()?;
     let goal = encoder.conditions(ground.goal);
     let clash = goal
@@ -281,10 +283,12 @@ impl Encoder<'_> {
         self.task.numeric.fallible.push(fallible);
     }
 
-    fn operators(&mut self, numbers: &[u32]) {
+    fn operators(&mut self, numbers: &[u32], limits: &GroundLimits<'_>) -> Result<(), GroundError> {
+        let mut ticks = Ticks::default();
         let ground = self.ground;
         let scale = cost_scale(&ground.operators);
         for operator in &ground.operators {
+            ticks.tick(limits)?;
             let precondition = self.conditions(operator.precondition);
             if self.contradictory(&precondition) {
                 continue;
@@ -308,6 +312,7 @@ impl Encoder<'_> {
             self.task.writes.push_row(writes);
             self.task.effects.push_row(effects.plain);
         }
+        Ok(())
     }
 
     /// An operator's effects on variables. PDDL's deletes before adds becomes: where an operator adds an

@@ -1,6 +1,7 @@
 //! The instances of the rules as propositional operators, effects and axioms.
 
 use super::join::UNBOUND;
+use super::limits::Ticks;
 use super::numbers::{GroundNumericEffect, InitialValues};
 use super::propositional::{AtomName, Ground, GroundEffect, GroundOperator, GroundRule, Lit, Stretch};
 use super::quantified::Expander;
@@ -12,7 +13,7 @@ use crate::lifted::{Body, Change, Formula, Head, Lifted, LiftedAtom, Role, Schem
 pub(crate) fn instantiate(
     lifted: &Lifted,
     reached: &Reached,
-    limits: &GroundLimits,
+    limits: &GroundLimits<'_>,
 ) -> Result<Ground, GroundError> {
     let mut builder = Builder::new(lifted, reached, limits);
     let effects = builder.effects()?;
@@ -48,7 +49,8 @@ struct Builder<'a> {
     world: World<'a>,
     expander: Expander,
     ground: Ground,
-    limits: &'a GroundLimits,
+    ticks: Ticks,
+    limits: &'a GroundLimits<'a>,
 }
 
 /// The reached facts with their numbers as atoms, and the numbers that never change.
@@ -61,7 +63,7 @@ pub(super) struct World<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(lifted: &'a Lifted, reached: &'a Reached, limits: &'a GroundLimits) -> Self {
+    fn new(lifted: &'a Lifted, reached: &'a Reached, limits: &'a GroundLimits<'a>) -> Self {
         let mut ground = Ground::default();
         let mut base = Vec::with_capacity(lifted.symbols.predicates.len());
         for (predicate, declared) in lifted.symbols.predicates.iter().enumerate() {
@@ -84,7 +86,7 @@ impl<'a> Builder<'a> {
                 ground.init[atom as usize] = true;
             }
         }
-        Builder { world, expander: Expander::default(), ground, limits }
+        Builder { world, expander: Expander::default(), ground, ticks: Ticks::default(), limits }
     }
 
     /// The binding of a rule's scope for one of its instances.
@@ -124,7 +126,6 @@ impl<'a> Builder<'a> {
         }
         for (at, forall) in body.foralls.iter().enumerate() {
             let key = (rule, at as u32);
-            let limit = self.limits.instances;
             let ranges = &body.variables;
             if !self.expander.expand(
                 &self.world,
@@ -133,7 +134,7 @@ impl<'a> Builder<'a> {
                 forall,
                 ranges,
                 binding,
-                limit,
+                self.limits,
                 out,
             )? {
                 return Ok(false);
@@ -159,6 +160,7 @@ impl<'a> Builder<'a> {
             let width = rule.body.bound.len();
             for instance in 0..self.world.reached.counts[index] {
                 let values = &self.world.reached.instances[index][instance * width..(instance + 1) * width];
+                self.ticks.tick(self.limits)?;
                 Self::bind(&rule.body, values, &mut binding);
                 if !self.condition(index as u32, &rule.body, skip, &mut binding, &mut condition)? {
                     continue;
@@ -204,6 +206,7 @@ impl<'a> Builder<'a> {
         let (mut binding, mut lits, mut plain) = (Vec::new(), Vec::new(), Vec::new());
         for instance in 0..reached.counts[index] {
             let values = &reached.instances[index][instance * width..(instance + 1) * width];
+            self.ticks.tick(self.limits)?;
             Self::bind(&rule.body, values, &mut binding);
             if !self.condition(index as u32, &rule.body, 0, &mut binding, &mut lits)? {
                 continue;
@@ -296,6 +299,7 @@ impl<'a> Builder<'a> {
         let (mut binding, mut lits) = (Vec::new(), Vec::new());
         for instance in 0..reached.counts[index] {
             let values = &reached.instances[index][instance * width..(instance + 1) * width];
+            self.ticks.tick(self.limits)?;
             Self::bind(body, values, &mut binding);
             if !self.condition(index as u32, body, 0, &mut binding, &mut lits)? {
                 continue;

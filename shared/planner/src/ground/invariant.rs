@@ -9,6 +9,7 @@ use std::collections::{BTreeSet, BinaryHeap, VecDeque};
 
 use super::propositional::{AtomName, Ground, GroundOperator, Lit};
 use super::relation::Relation;
+use super::{GroundError, GroundLimits};
 use crate::id_table::{IdTable, Slot, hash_words};
 
 /// At most so many candidates are looked at.
@@ -26,7 +27,11 @@ struct Part {
 type Candidate = Vec<Part>;
 
 /// Finds disjoint mutex groups among the relevant atoms, large ones first.
-pub(crate) fn mutex_groups(ground: &Ground, relations: &[Relation]) -> Vec<Vec<u32>> {
+pub(crate) fn mutex_groups(
+    ground: &Ground,
+    relations: &[Relation],
+    limits: &GroundLimits<'_>,
+) -> Result<Vec<Vec<u32>>, GroundError> {
     let atoms = Atoms { ground, relations };
     let samples = samples(ground);
     let mut open: VecDeque<Candidate> = atoms.first_candidates();
@@ -35,6 +40,7 @@ pub(crate) fn mutex_groups(ground: &Ground, relations: &[Relation]) -> Vec<Vec<u
     let mut groups = Vec::new();
     while let Some(candidate) = open.pop_front() {
         looked_at += 1;
+        limits.check_time()?;
         if looked_at > MAX_CANDIDATES {
             break;
         }
@@ -53,7 +59,7 @@ pub(crate) fn mutex_groups(ground: &Ground, relations: &[Relation]) -> Vec<Vec<u
             }
         }
     }
-    choose(groups, ground.names.len())
+    Ok(choose(groups, ground.names.len()))
 }
 
 /// The first operator of each action.

@@ -1,10 +1,14 @@
 //! All instances of a rule's body, by backtracking over its atoms, smallest choice first.
 
 use super::relation::Relation;
+use super::{GroundError, GroundLimits};
 use crate::lifted::{Body, LiftedAtom, Role, Symbols, Term};
 
 /// The mark of an unbound variable.
 pub(crate) const UNBOUND: u32 = u32::MAX;
+
+/// The clock is read once in so many steps.
+const STEPS_BETWEEN_CHECKS: u64 = 1 << 14;
 
 /// The fact that a join starts from: it must be used at `position`, and at no earlier one.
 #[derive(Clone, Copy)]
@@ -25,8 +29,11 @@ pub(crate) struct Join<'a> {
     pub count: usize,
     /// Stops after so many instances ...
     pub max_count: usize,
-    /// ... or when this many steps are used up.
+    /// ... or when this many steps are used up ...
     pub steps_left: u64,
+    /// ... or when the caller's time is, which is then noted here.
+    pub stopped: Option<GroundError>,
+    pub limits: &'a GroundLimits<'a>,
 }
 
 impl<'a> Join<'a> {
@@ -50,11 +57,26 @@ impl<'a> Join<'a> {
         self.extend(&mut pending, trigger);
     }
 
-    fn extend(&mut self, pending: &mut [usize], trigger: Option<Trigger>) {
+    /// Counts a step; false if the join has to end.
+    #[inline]
+    fn step(&mut self) -> bool {
         if self.count >= self.max_count || self.steps_left == 0 {
-            return;
+            return false;
         }
         self.steps_left -= 1;
+        if self.steps_left % STEPS_BETWEEN_CHECKS == 0 {
+            self.stopped = self.limits.check_time().err();
+            if self.stopped.is_some() {
+                self.steps_left = 0;
+            }
+        }
+        true
+    }
+
+    fn extend(&mut self, pending: &mut [usize], trigger: Option<Trigger>) {
+        if !self.step() {
+            return;
+        }
         let Some(best) = self.smallest(pending) else {
             return self.enumerate(0);
         };
@@ -228,10 +250,9 @@ impl<'a> Join<'a> {
 
     /// Lets the variables that no atom binds run over their ranges.
     fn enumerate(&mut self, from: usize) {
-        if self.count >= self.max_count || self.steps_left == 0 {
+        if !self.step() {
             return;
         }
-        self.steps_left -= 1;
         let body = self.body;
         let free = body.bound[from..].iter().position(|&slot| self.binding[slot as usize] == UNBOUND);
         let Some(free) = free else {

@@ -11,6 +11,7 @@ mod instantiate;
 mod invariant;
 mod join;
 mod layers;
+mod limits;
 mod numbers;
 mod propositional;
 mod quantified;
@@ -20,25 +21,11 @@ mod simplify;
 
 use lamma_pddl::ast::{Domain, Problem};
 
+pub use limits::GroundLimits;
+
 use crate::lifted;
+use crate::search::GaveUp;
 use crate::task::Task;
-
-/// How large a grounded task may become.
-#[derive(Clone, Debug)]
-pub struct GroundLimits {
-    /// Reachable facts.
-    pub facts: usize,
-    /// Reachable instances of actions, conditional effects and axioms.
-    pub instances: usize,
-    /// Steps of joining facts, a measure of time that is the same on every machine.
-    pub steps: u64,
-}
-
-impl Default for GroundLimits {
-    fn default() -> Self {
-        GroundLimits { facts: 20_000_000, instances: 20_000_000, steps: 20_000_000_000 }
-    }
-}
 
 /// Why a task could not be grounded.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -57,16 +44,21 @@ pub enum GroundError {
         /// The limit.
         limit: u64,
     },
+    /// The caller's time or memory is used up, or the caller cancelled.
+    #[error("grounding stopped: {0}")]
+    GaveUp(GaveUp),
 }
 
 /// Grounds a task. A goal that can never hold is not an error: the task then says so
 /// ([`Task::impossible`]).
-pub fn ground(domain: &Domain, problem: &Problem, limits: &GroundLimits) -> Result<Task, GroundError> {
+pub fn ground(domain: &Domain, problem: &Problem, limits: &GroundLimits<'_>) -> Result<Task, GroundError> {
     let lifted = lifted::lift(domain, problem)?;
     let reached = reach::reach(&lifted, limits)?;
     let mut ground = instantiate::instantiate(&lifted, &reached, limits)?;
     simplify::simplify(&mut ground);
+    limits.check_time()?;
     let possible = ground.impossible.is_empty();
-    let groups = if possible { invariant::mutex_groups(&ground, &reached.relations) } else { Vec::new() };
-    encode::encode(lifted, &reached.relations, ground, &groups)
+    let groups =
+        if possible { invariant::mutex_groups(&ground, &reached.relations, limits)? } else { Vec::new() };
+    encode::encode(lifted, &reached.relations, ground, &groups, limits)
 }

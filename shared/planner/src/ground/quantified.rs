@@ -5,10 +5,11 @@
 
 use std::collections::HashMap;
 
-use super::GroundError;
 use super::instantiate::{Value, World, object};
 use super::join::UNBOUND;
+use super::limits::Ticks;
 use super::propositional::{Ground, GroundRule, Lit};
+use super::{GroundError, GroundLimits};
 use crate::lifted::{Formula, Role};
 
 /// A rule, its quantified condition, and the values of the free variables.
@@ -21,6 +22,7 @@ pub(super) struct Expander {
     made: HashMap<Vec<Vec<Lit>>, u32>,
     /// Expansions by rule, quantifier, and the values of the free variables.
     known: HashMap<Instance, Option<Vec<Lit>>>,
+    ticks: Ticks,
 }
 
 /// A ground condition: a constant, or a disjunction of conjunctions.
@@ -46,7 +48,7 @@ impl Expander {
         forall: &Formula,
         ranges: &[u32],
         binding: &mut Vec<u32>,
-        limit: usize,
+        limits: &GroundLimits<'_>,
         out: &mut Vec<Lit>,
     ) -> Result<bool, GroundError> {
         ground.approximate = true;
@@ -56,7 +58,7 @@ impl Expander {
             out.extend(known.iter().flatten());
             return Ok(known.is_some());
         }
-        let mut expansion = Expansion { world, ground, ranges, binding, made: &mut self.made, limit };
+        let mut expansion = Expansion { world, ground, ranges, binding, made: &mut self.made, ticks: &mut self.ticks, limits };
         let lits = match expansion.expand(forall)? {
             Expanded::False => None,
             Expanded::All(lits) => Some(lits),
@@ -74,7 +76,8 @@ struct Expansion<'a, 'w> {
     ranges: &'a [u32],
     binding: &'a mut Vec<u32>,
     made: &'a mut HashMap<Vec<Vec<Lit>>, u32>,
-    limit: usize,
+    ticks: &'a mut Ticks,
+    limits: &'a GroundLimits<'a>,
 }
 
 impl Expansion<'_, '_> {
@@ -149,6 +152,7 @@ impl Expansion<'_, '_> {
         universal: bool,
         each: &mut dyn FnMut(Expanded) -> bool,
     ) -> Result<bool, GroundError> {
+        self.ticks.tick(self.limits)?;
         // Instances with this value say nothing: true ones of "for all", false ones of "exists".
         if self.static_value(inner) == Some(universal) {
             return Ok(true);
@@ -233,10 +237,10 @@ impl Expansion<'_, '_> {
             let body = self.ground.store(choice);
             self.ground.rules.push(GroundRule { head: atom, body });
         }
-        if self.ground.rules.len() > self.limit {
+        if self.ground.rules.len() > self.limits.instances {
             return Err(GroundError::TooLarge {
                 what: "parts of quantified conditions",
-                limit: self.limit as u64,
+                limit: self.limits.instances as u64,
             });
         }
         self.made.insert(choices, atom);

@@ -19,7 +19,7 @@ pub(crate) struct Reached {
 }
 
 /// Computes the fixpoint.
-pub(crate) fn reach(lifted: &Lifted, limits: &GroundLimits) -> Result<Reached, GroundError> {
+pub(crate) fn reach(lifted: &Lifted, limits: &GroundLimits<'_>) -> Result<Reached, GroundError> {
     let mut fixpoint = Fixpoint::new(lifted, limits);
     fixpoint.load();
     for rule in 0..lifted.rules.len() {
@@ -43,9 +43,12 @@ pub(crate) fn reach(lifted: &Lifted, limits: &GroundLimits) -> Result<Reached, G
     Ok(Reached { relations, instances, counts })
 }
 
+/// What a fact takes in tables and queue.
+const WORDS_A_FACT: usize = 6;
+
 struct Fixpoint<'a> {
     lifted: &'a Lifted,
-    limits: &'a GroundLimits,
+    limits: &'a GroundLimits<'a>,
     relations: Vec<Relation>,
     instances: Vec<Vec<u32>>,
     counts: Vec<usize>,
@@ -54,13 +57,15 @@ struct Fixpoint<'a> {
     queue: VecDeque<(u32, u32)>,
     facts: usize,
     total: usize,
+    /// Words of instances and facts.
+    words: usize,
     steps_left: u64,
     binding: Vec<u32>,
     found: Vec<u32>,
 }
 
 impl<'a> Fixpoint<'a> {
-    fn new(lifted: &'a Lifted, limits: &'a GroundLimits) -> Self {
+    fn new(lifted: &'a Lifted, limits: &'a GroundLimits<'a>) -> Self {
         let symbols = &lifted.symbols;
         let objects = symbols.objects.len();
         let mut fixpoint = Fixpoint {
@@ -73,6 +78,7 @@ impl<'a> Fixpoint<'a> {
             queue: VecDeque::new(),
             facts: 0,
             total: 0,
+            words: 0,
             steps_left: limits.steps,
             binding: Vec::new(),
             found: Vec::new(),
@@ -137,8 +143,13 @@ impl<'a> Fixpoint<'a> {
             count: 0,
             max_count,
             steps_left: self.steps_left,
+            stopped: None,
+            limits: self.limits,
         };
         join.run(trigger);
+        if let Some(stopped) = join.stopped.take() {
+            return Err(stopped);
+        }
         let count = join.count;
         self.steps_left = join.steps_left;
         self.counts[index] += count;
@@ -154,7 +165,9 @@ impl<'a> Fixpoint<'a> {
         }
         self.conclude(index, &found, count);
         self.instances[index].extend_from_slice(&found);
+        self.words += found.len();
         self.found = found;
+        self.limits.check_memory(self.words * size_of::<u32>())?;
         if self.facts > self.limits.facts {
             return Err(GroundError::TooLarge { what: "reachable facts", limit: self.limits.facts as u64 });
         }
@@ -217,6 +230,7 @@ impl<'a> Fixpoint<'a> {
     fn add(&mut self, predicate: u32, args: &[u32]) {
         if let Some(row) = self.relations[predicate as usize].insert(args) {
             self.facts += 1;
+            self.words += WORDS_A_FACT + args.len() * 2;
             self.queue.push_back((predicate, row));
         }
     }

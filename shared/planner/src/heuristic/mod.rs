@@ -40,6 +40,11 @@ pub trait Heuristic {
     fn properties(&self) -> Properties;
     /// The estimate for a packed state. Operators that look promising are added to `preferred`.
     fn estimate(&mut self, state: &[u64], preferred: &mut Vec<OperatorId>) -> Estimate;
+    /// What is known without looking, from estimating the last state, of the state that `operator` leads to
+    /// from there: the goal is at least so far. Only admissible heuristics say more than zero.
+    fn bound_after(&self, _operator: OperatorId) -> u32 {
+        0
+    }
 }
 
 /// Zero everywhere: A* with it is uniform-cost search.

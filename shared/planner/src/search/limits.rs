@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use crate::ground::GroundLimits;
 use crate::plan::Plan;
 
 /// How much a search may use. `None` means no limit.
@@ -14,6 +15,24 @@ pub struct Limits {
     pub time: Option<Duration>,
     /// Memory for states and open lists.
     pub memory_bytes: Option<usize>,
+}
+
+impl Limits {
+    /// The same for grounding, from now on.
+    pub fn for_grounding<'a>(&self, cancel: &'a AtomicBool) -> GroundLimits<'a> {
+        GroundLimits {
+            deadline: self.time.and_then(|time| Instant::now().checked_add(time)),
+            memory_bytes: self.memory_bytes,
+            cancel: Some(cancel),
+            ..GroundLimits::default()
+        }
+    }
+
+    /// What is left of them once grounding under `used` is done.
+    pub fn after(&self, used: &GroundLimits<'_>) -> Limits {
+        let left = used.deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()));
+        Limits { time: left.or(self.time), ..self.clone() }
+    }
 }
 
 /// What came out.

@@ -17,7 +17,7 @@ use lamma_pddl::ast::{Domain, Problem};
 pub(crate) use improve::eliminate;
 pub use limits::{GaveUp, Limits, Outcome, Unsolvable};
 
-use crate::ground::{GroundError, GroundLimits, ground};
+use crate::ground::{GroundError, ground};
 use crate::heuristic::{Blind, Costs, Graph, Heuristic, LandmarkCut, Relaxation};
 use crate::successor::Successors;
 use crate::task::{OperatorId, Task};
@@ -156,8 +156,12 @@ pub fn plan_with(
     limits: &Limits,
     cancel: &AtomicBool,
 ) -> Result<Outcome, GroundError> {
-    let task = ground(domain, problem, &GroundLimits::default())?;
-    Ok(solve(&task, options, limits, cancel))
+    let grounding = limits.for_grounding(cancel);
+    match ground(domain, problem, &grounding) {
+        Ok(task) => Ok(solve(&task, options, &limits.after(&grounding), cancel)),
+        Err(GroundError::GaveUp(reason)) => Ok(Outcome::GaveUp(reason)),
+        Err(error) => Err(error),
+    }
 }
 
 /// h_FF of the initial state with every action at cost one: how many actions a relaxed plan has. `None` if
