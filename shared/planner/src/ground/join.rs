@@ -25,6 +25,9 @@ pub(crate) struct Join<'a> {
     pub body: &'a Body,
     pub binding: &'a mut Vec<u32>,
     pub found: &'a mut Vec<u32>,
+    /// Work space: the atoms not joined yet, and the slots bound so far.
+    pub pending: &'a mut Vec<usize>,
+    pub trail: &'a mut Vec<u32>,
     /// The number of instances found.
     pub count: usize,
     /// Stops after so many instances ...
@@ -41,20 +44,27 @@ impl<'a> Join<'a> {
     pub fn run(&mut self, trigger: Option<Trigger>) {
         self.binding.clear();
         self.binding.resize(self.body.variables.len(), UNBOUND);
-        let mut pending: Vec<usize> = (0..self.body.atoms.len()).collect();
-        let mut trail = Vec::new();
+        let mut pending = std::mem::take(self.pending);
+        pending.clear();
+        pending.extend(0..self.body.atoms.len());
+        self.trail.clear();
+        self.start(&mut pending, trigger);
+        *self.pending = pending;
+    }
+
+    fn start(&mut self, pending: &mut Vec<usize>, trigger: Option<Trigger>) {
         if let Some(start) = trigger {
             pending.swap_remove(start.position);
             let body = self.body;
             let relations = self.relations;
             let row = relations[start.predicate as usize].row(start.row);
-            if !self.matches(&body.atoms[start.position], row, &mut trail) || !self.consistent() {
+            if !self.matches(&body.atoms[start.position], row) || !self.consistent() {
                 return;
             }
         } else if !self.consistent() {
             return;
         }
-        self.extend(&mut pending, trigger);
+        self.extend(pending, trigger);
     }
 
     /// Counts a step; false if the join has to end.
@@ -125,11 +135,11 @@ impl<'a> Join<'a> {
         if row == skip {
             return;
         }
-        let mut trail = Vec::new();
-        if self.matches(atom, relation.row(row), &mut trail) && (trail.is_empty() || self.consistent()) {
+        let before = self.trail.len();
+        if self.matches(atom, relation.row(row)) && (self.trail.len() == before || self.consistent()) {
             self.extend(rest, trigger);
         }
-        for slot in trail {
+        for slot in self.trail.drain(before..) {
             self.binding[slot as usize] = UNBOUND;
         }
     }
@@ -204,8 +214,8 @@ impl<'a> Join<'a> {
         }
     }
 
-    /// Binds the atom's variables to the row; `trail` lists what was bound, also where it fails.
-    fn matches(&mut self, atom: &LiftedAtom, row: &[u32], trail: &mut Vec<u32>) -> bool {
+    /// Binds the atom's variables to the row; the trail lists what was bound, also where it fails.
+    fn matches(&mut self, atom: &LiftedAtom, row: &[u32]) -> bool {
         for (&term, &object) in atom.args.iter().zip(row) {
             match term {
                 Term::Object(expected) => {
@@ -221,7 +231,7 @@ impl<'a> Join<'a> {
                             return false;
                         }
                         self.binding[slot as usize] = object;
-                        trail.push(slot);
+                        self.trail.push(slot);
                     } else if bound != object {
                         return false;
                     }
@@ -244,8 +254,16 @@ impl<'a> Join<'a> {
         if self.symbols.predicates[atom.predicate as usize].role != Role::Static {
             return true;
         }
-        let args: Vec<u32> = atom.args.iter().map(|&term| self.value(term)).collect();
-        args.contains(&UNBOUND) || self.relations[atom.predicate as usize].find(&args).is_none()
+        let mut buffer = [0u32; 8];
+        let mut large = Vec::new();
+        let args = if atom.args.len() <= buffer.len() {
+            &mut buffer[..atom.args.len()]
+        } else {
+            large.resize(atom.args.len(), 0);
+            &mut large[..]
+        };
+        args.iter_mut().zip(&atom.args).for_each(|(arg, &term)| *arg = self.value(term));
+        args.contains(&UNBOUND) || self.relations[atom.predicate as usize].find(args).is_none()
     }
 
     /// Lets the variables that no atom binds run over their ranges.

@@ -58,7 +58,15 @@ impl Expander {
             out.extend(known.iter().flatten());
             return Ok(known.is_some());
         }
-        let mut expansion = Expansion { world, ground, ranges, binding, made: &mut self.made, ticks: &mut self.ticks, limits };
+        let mut expansion = Expansion {
+            world,
+            ground,
+            ranges,
+            binding,
+            made: &mut self.made,
+            ticks: &mut self.ticks,
+            limits,
+        };
         let lits = match expansion.expand(forall)? {
             Expanded::False => None,
             Expanded::All(lits) => Some(lits),

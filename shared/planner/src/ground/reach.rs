@@ -1,7 +1,7 @@
 //! What can be reached when deletes are ignored: the fixpoint of the task's rules, computed fact by fact
 //! (semi-naive; Helmert 2009, section 6.3).
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 
 use super::join::{Join, Trigger};
 use super::relation::Relation;
@@ -29,10 +29,7 @@ pub(crate) fn reach(lifted: &Lifted, limits: &GroundLimits<'_>) -> Result<Reache
     }
     while let Some((predicate, row)) = fixpoint.queue.pop_front() {
         fixpoint.relations[predicate as usize].show_next();
-        for at in 0..fixpoint.triggers[predicate as usize].len() {
-            let (rule, position) = fixpoint.triggers[predicate as usize][at];
-            fixpoint.fire(rule as usize, Some(Trigger { position: position as usize, predicate, row }))?;
-        }
+        fixpoint.trigger(predicate, row)?;
     }
     for rule in 0..lifted.rules.len() {
         if fixpoint.is_late(rule) {
@@ -41,6 +38,29 @@ pub(crate) fn reach(lifted: &Lifted, limits: &GroundLimits<'_>) -> Result<Reache
     }
     let Fixpoint { relations, instances, counts, .. } = fixpoint;
     Ok(Reached { relations, instances, counts })
+}
+
+/// Where a predicate occurs in bodies: rule and position. Domains written for one problem name its objects
+/// in most places, and a fact about others then need not look at them.
+#[derive(Clone, Default)]
+struct Occurrences {
+    /// Occurrences without constants.
+    anywhere: Vec<(u32, u32)>,
+    /// The others by their first constant: which argument, and the object.
+    with_constant: BTreeMap<(u32, u32), Vec<(u32, u32)>>,
+}
+
+impl Occurrences {
+    fn add(&mut self, atom: &LiftedAtom, place: (u32, u32)) {
+        let constant = atom.args.iter().enumerate().find_map(|(at, term)| match term {
+            Term::Object(object) => Some((at as u32, *object)),
+            Term::Variable(_) => None,
+        });
+        match constant {
+            Some(key) => self.with_constant.entry(key).or_default().push(place),
+            None => self.anywhere.push(place),
+        }
+    }
 }
 
 /// What a fact takes in tables and queue.
@@ -52,8 +72,8 @@ struct Fixpoint<'a> {
     relations: Vec<Relation>,
     instances: Vec<Vec<u32>>,
     counts: Vec<usize>,
-    /// Where each predicate occurs: rule and position.
-    triggers: Vec<Vec<(u32, u32)>>,
+    /// Where each predicate occurs.
+    triggers: Vec<Occurrences>,
     queue: VecDeque<(u32, u32)>,
     facts: usize,
     total: usize,
@@ -62,6 +82,8 @@ struct Fixpoint<'a> {
     steps_left: u64,
     binding: Vec<u32>,
     found: Vec<u32>,
+    pending: Vec<usize>,
+    trail: Vec<u32>,
 }
 
 impl<'a> Fixpoint<'a> {
@@ -74,7 +96,7 @@ impl<'a> Fixpoint<'a> {
             relations: symbols.predicates.iter().map(|p| Relation::new(p.arity, objects)).collect(),
             instances: vec![Vec::new(); lifted.rules.len()],
             counts: vec![0; lifted.rules.len()],
-            triggers: vec![Vec::new(); symbols.predicates.len()],
+            triggers: vec![Occurrences::default(); symbols.predicates.len()],
             queue: VecDeque::new(),
             facts: 0,
             total: 0,
@@ -82,6 +104,8 @@ impl<'a> Fixpoint<'a> {
             steps_left: limits.steps,
             binding: Vec::new(),
             found: Vec::new(),
+            pending: Vec::new(),
+            trail: Vec::new(),
         };
         for (index, rule) in lifted.rules.iter().enumerate() {
             if fixpoint.is_late(index) {
@@ -89,7 +113,7 @@ impl<'a> Fixpoint<'a> {
             }
             for (position, atom) in rule.body.atoms.iter().enumerate() {
                 if fixpoint.changes(atom.predicate) {
-                    fixpoint.triggers[atom.predicate as usize].push((index as u32, position as u32));
+                    fixpoint.triggers[atom.predicate as usize].add(atom, (index as u32, position as u32));
                 }
             }
         }
@@ -126,6 +150,26 @@ impl<'a> Fixpoint<'a> {
         }
     }
 
+    /// Fires the rules that a fact, shown just now, can take part in.
+    fn trigger(&mut self, predicate: u32, row: u32) -> Result<(), GroundError> {
+        let occurrences = std::mem::take(&mut self.triggers[predicate as usize]);
+        let arity = self.lifted.symbols.predicates[predicate as usize].arity;
+        let result = (0..=arity).try_for_each(|argument| {
+            let places = match argument.checked_sub(1) {
+                None => &occurrences.anywhere,
+                Some(at) => {
+                    let object = self.relations[predicate as usize].row(row)[at];
+                    occurrences.with_constant.get(&(at as u32, object)).unwrap_or(const { &Vec::new() })
+                }
+            };
+            places.iter().try_for_each(|&(rule, position)| {
+                self.fire(rule as usize, Some(Trigger { position: position as usize, predicate, row }))
+            })
+        });
+        self.triggers[predicate as usize] = occurrences;
+        result
+    }
+
     fn fire(&mut self, index: usize, trigger: Option<Trigger>) -> Result<(), GroundError> {
         let rule = &self.lifted.rules[index];
         let width = rule.body.bound.len();
@@ -140,6 +184,8 @@ impl<'a> Fixpoint<'a> {
             body: &rule.body,
             binding: &mut self.binding,
             found: &mut found,
+            pending: &mut self.pending,
+            trail: &mut self.trail,
             count: 0,
             max_count,
             steps_left: self.steps_left,

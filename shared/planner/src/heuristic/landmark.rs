@@ -1,19 +1,20 @@
 //! Landmarks: facts (or small sets of facts, one of which) every plan makes true at some time, and the count
 //! of those still to come (Richter & Westphal 2010, "The LAMA planner", sections 4 and 5.1).
 //!
-//! Found by backchaining: what all operators ask for that can be the first to make a landmark true is a
-//! landmark too, and comes directly before it.
+//! Facts are found by propagation ([`LandmarkSets`]), sets of facts and the orders by backchaining: what all
+//! operators ask for that can be the first to make a landmark true comes directly before it.
 
 use std::collections::HashMap;
 
 use super::graph::Graph;
+use super::landmark_sets::LandmarkSets;
 use crate::csr::Csr;
 use crate::task::{AtomText, FactId, Task};
 
 /// Sets of more facts say too little.
 const MAX_DISJUNCTION: usize = 4;
-/// The work that finding landmarks may take, in parts of the relaxed task looked at.
-const MAX_WORK: usize = 200_000_000;
+/// The work that backchaining may take, in operators looked at.
+const MAX_WORK: usize = 20_000_000;
 
 /// The landmarks and their order.
 #[derive(Debug, Default)]
@@ -38,13 +39,17 @@ impl LandmarkGraph {
             found: Vec::new(),
             by_facts: HashMap::new(),
             orders: Vec::new(),
-            reached: vec![false; task.facts.len()],
-            missing: Vec::new(),
-            agenda: Vec::new(),
+            sets: LandmarkSets::new(task, graph),
             work: 0,
         };
         for &goal in &task.goal {
             finder.add(vec![goal]);
+            let before: Vec<FactId> = finder.sets.iter().flat_map(|sets| sets.of(goal)).collect();
+            for fact in before {
+                if !task.holds(&task.init, fact) && !graph.free_facts.contains(&fact) {
+                    finder.add(vec![fact]);
+                }
+            }
         }
         let mut next = 0;
         while next < finder.found.len() {
@@ -75,10 +80,8 @@ struct Finder<'a> {
     by_facts: HashMap<Vec<FactId>, u32>,
     /// Pairs of landmarks: the first holds directly before the second first does.
     orders: Vec<(u32, u32)>,
-    // Work space of the relaxed exploration.
-    reached: Vec<bool>,
-    missing: Vec<u32>,
-    agenda: Vec<FactId>,
+    /// The landmarks of each fact, if the task is not too large.
+    sets: Option<LandmarkSets>,
     work: usize,
 }
 
@@ -98,17 +101,14 @@ impl Finder<'_> {
         if facts.iter().any(|&fact| self.task.holds(&self.task.init, fact)) || self.work > MAX_WORK {
             return;
         }
-        self.explore_without(&facts);
         let mut achievers: Vec<u32> = Vec::new();
         for fact in &facts {
             achievers.extend(self.makers.row(fact.index()));
         }
         achievers.sort_unstable();
         achievers.dedup();
-        achievers.retain(|&node| {
-            let conditions = self.graph.conditions.row(node as usize);
-            conditions.iter().all(|fact| self.reached[fact.index()])
-        });
+        self.work += achievers.len() * facts.len();
+        achievers.retain(|&node| self.is_first(node, &facts));
         let Some((&first, rest)) = achievers.split_first() else { return };
         let mut shared = self.graph.conditions.row(first as usize).to_vec();
         for &node in rest {
@@ -125,34 +125,11 @@ impl Finder<'_> {
         }
     }
 
-    /// Everything reached from the initial state if `facts` are never made true.
-    fn explore_without(&mut self, facts: &[FactId]) {
-        let graph = self.graph;
-        self.work += graph.size();
-        self.reached.fill(false);
-        self.missing.clear();
-        self.missing.extend_from_slice(&graph.condition_count);
-        self.agenda.clear();
-        self.agenda.extend(self.task.facts_of(&self.task.init));
-        self.agenda.extend_from_slice(&graph.free_facts);
-        self.agenda.iter().for_each(|fact| self.reached[fact.index()] = true);
-        let fire = |node: u32, reached: &mut Vec<bool>, agenda: &mut Vec<FactId>| {
-            for fact in graph.effects.row(node as usize) {
-                if !reached[fact.index()] && !facts.contains(fact) {
-                    reached[fact.index()] = true;
-                    agenda.push(*fact);
-                }
-            }
-        };
-        graph.free_nodes.iter().for_each(|&node| fire(node, &mut self.reached, &mut self.agenda));
-        while let Some(fact) = self.agenda.pop() {
-            for &node in graph.waiting.row(fact.index()) {
-                self.missing[node as usize] -= 1;
-                if self.missing[node as usize] == 0 {
-                    fire(node, &mut self.reached, &mut self.agenda);
-                }
-            }
-        }
+    /// Whether a node can be the first to make one of `facts` true: nothing it asks for needs one of them.
+    fn is_first(&self, node: u32, facts: &[FactId]) -> bool {
+        let Some(sets) = &self.sets else { return true };
+        let conditions = self.graph.conditions.row(node as usize);
+        conditions.iter().all(|&c| sets.reached(c) && !facts.iter().any(|&fact| sets.contains(c, fact)))
     }
 
     /// Small sets of facts of one predicate of which every achiever asks for one.

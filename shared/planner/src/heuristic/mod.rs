@@ -3,6 +3,7 @@
 mod bucket_queue;
 mod graph;
 mod landmark;
+mod landmark_sets;
 mod lmcut;
 mod numeric;
 mod relaxation;

@@ -24,9 +24,10 @@ pub(super) fn first_plan(
     let landmarks = LandmarkGraph::new(task, graph);
     statistics.landmarks = landmarks.len();
     let relaxation = || Relaxation::on(task, Rc::clone(graph), Costs::Unit);
-    // What a state costs: h_FF looks at the whole graph, novelty at the variables and the landmarks.
-    let greedy_cost = graph.size() as u64 + 1;
-    let width_cost = (task.variables.len() + landmarks.len()) as u64 / 2 + 20;
+    // What a state costs, measured in the same unit (about a nanosecond): h_FF looks at the whole graph,
+    // novelty at the variables and the landmarks.
+    let greedy_cost = graph.size() as u64 + 500;
+    let width_cost = 15 * (task.variables.len() + landmarks.len()) as u64 + 500;
     let mut greedy = LazyGreedy::new(task, successors, &landmarks, relaxation());
     let mut slice = FIRST_SLICE;
     if let Some(result) = finished(greedy.run(slice / greedy_cost + 20, meter)?) {
@@ -34,7 +35,7 @@ pub(super) fn first_plan(
     }
     statistics.slice = 1;
     let mut width = WidthSearch::new(task, successors, &landmarks, relaxation(), 1, true);
-    if let Some(result) = finished(width.run(20 * slice / width_cost, meter)?) {
+    if let Some(result) = finished(width.run(10 * slice / width_cost, meter)?) {
         return Ok(result);
     }
     drop(width);
