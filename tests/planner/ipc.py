@@ -4,8 +4,8 @@
     python3 tests/planner/ipc.py COLLECTION [--suite satisficing|optimal] [--time-limit 30] [--only TEXT]
 
 COLLECTION is a checkout of github.com/aibasel/downward-benchmarks (not shipped here). The instances come from
-`satisficing.txt` or `optimal.txt` beside this file; `--list-rule` prints `satisficing.txt` anew from the
-collection, by the rule that its head states.
+`satisficing.txt` or `optimal.txt` beside this file; `--list-rule` prints the suite's list anew from the collection, by the rule
+that its head states.
 
 Peers are used where they are found, and named where not:
   lama-first, lmcut   Fast Downward: `fast-downward.py` on the PATH, or the path in $FAST_DOWNWARD
@@ -54,13 +54,17 @@ def natural(text):
     return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", text)]
 
 
-def list_rule(collection, per_family=3):
-    """The instances of the satisficing list; the rule is in the text it starts with."""
+# Where in a domain's problems the instances of a suite stand, from the first (0) to the last (1).
+PLACES = {"satisficing": [1 / 6, 3 / 6, 5 / 6], "optimal": [1 / 12, 3 / 12]}
+
+
+def list_rule(collection, suite):
+    """Prints the instances of a suite; the rule is in the text it starts with."""
     sys.path.insert(0, collection)
     import suites  # The collection's own lists of domains.
 
     families = {}
-    for domain in suites.suite_satisficing():
+    for domain in suites.suite_satisficing() if suite == "satisficing" else suites.suite_optimal():
         family = re.sub(r"-(sat|opt|agl|mco)?\d\d(?=-|$)", "", domain)
         family = re.sub(r"-(strips|adl)$", "", family)
         families.setdefault(family, []).append(domain)
@@ -69,15 +73,15 @@ def list_rule(collection, per_family=3):
         year = re.search(r"-(?:sat|opt|agl|mco)?(\d\d)(?=-|$)", domain)
         return (int(year.group(1)) if year else 0, domain)
 
-    print(f"# {per_family} instances of every domain family of the collection's `suite_satisficing`: of the family's")
-    print("# newest version the problems in natural order, cut into equal parts, the middle one of each part.")
+    parts = ", ".join(f"{place:.2f}" for place in PLACES[suite])
+    print(f"# {len(PLACES[suite])} instances of every domain family of the collection's `suite_{suite}`: of the family's newest")
+    print(f"# version the problems in natural order, those at {parts} of their number.")
     for family in sorted(families):
         newest = max(families[family], key=age)
         problems = [p for p in glob.glob(f"{collection}/{newest}/*.pddl") if "domain" not in os.path.basename(p)]
         problems = sorted((p for p in problems if domain_of(p)), key=natural)
-        for part in range(per_family):
-            at = (2 * part + 1) * len(problems) // (2 * per_family)
-            print(os.path.relpath(problems[at], collection))
+        for place in PLACES[suite]:
+            print(os.path.relpath(problems[int(place * len(problems) + 1e-9)], collection))
 
 
 # --- the planners --------------------------------------------------------------------------------------------
@@ -92,8 +96,7 @@ def planners(suite, lamma):
     `{seconds}`, `{mib}`, `{domain}`, `{problem}` and `{plan}` are filled in."""
     driver = tool("FAST_DOWNWARD", "fast-downward.py")
     downward = driver and [sys.executable, driver, "--plan-file", "{plan}"]
-    own = [lamma, "plan", "{domain}", "{problem}", "--plan-file", "{plan}", "--time-limit", "{seconds}",
-           "--memory-limit", "{mib}"]
+    own = [lamma, "plan", "{domain}", "{problem}", "--plan-file", "{plan}", "--memory-limit", "{mib}"]
     if suite == "optimal":
         yield "lamma", own + ["--search", "astar-lmcut"]
         yield "lmcut", downward and downward + ["{domain}", "{problem}", "--search", "astar(lmcut())"]
@@ -219,7 +222,7 @@ def main():
     parser.add_argument("collection", help="a checkout of aibasel/downward-benchmarks")
     parser.add_argument("--suite", choices=["satisficing", "optimal"], default="satisficing")
     parser.add_argument("--list", help="a file of problems instead of the suite's own")
-    parser.add_argument("--list-rule", action="store_true", help="print the satisficing list and stop")
+    parser.add_argument("--list-rule", action="store_true", help="print the suite's list and stop")
     parser.add_argument("--time-limit", type=float, default=30, help="CPU seconds for each run")
     parser.add_argument("--memory-limit", type=int, default=2048, help="MiB of address space")
     parser.add_argument("--only", default="", help="only problems whose path contains this")
@@ -230,7 +233,7 @@ def main():
     options = parser.parse_args()
     collection = os.path.abspath(options.collection)
     if options.list_rule:
-        return list_rule(collection)
+        return list_rule(collection, options.suite)
     if not os.path.exists(options.lamma):
         sys.exit(f"{options.lamma} is not there: build it with `cargo build --release -p lamma`, or give --lamma")
     lamma = os.path.abspath(options.lamma)

@@ -164,8 +164,8 @@ pub struct Task {
     pub(crate) axioms: Vec<Axiom>,
     pub(crate) axiom_bodies: Csr<FactId>,
     pub(crate) axiom_layers: Vec<std::ops::Range<usize>>,
-    /// Whether a layer must be evaluated again until nothing changes (recursive axioms).
-    pub(crate) recursive_axioms: bool,
+    /// Where axioms are recursive: for each fact the axioms that ask for it.
+    pub(crate) waiting_axioms: Option<Csr<u32>>,
     /// Bits of the derived variables by word, to clear before evaluating axioms.
     pub(crate) derived_masks: Vec<(usize, u64)>,
     /// The number of variables that axioms do not define.
@@ -304,21 +304,35 @@ impl Task {
             }
         }
         for layer in &self.axiom_layers {
-            loop {
-                let mut changed = false;
-                for axiom in &self.axioms[layer.clone()] {
-                    let head = &self.facts[axiom.head.index()];
-                    let body = self.axiom_bodies.row(axiom.body as usize);
-                    if !head.holds(state) && body.iter().all(|&fact| self.holds(state, fact)) {
-                        head.set(state);
-                        changed = true;
-                    }
+            let mut new = Vec::new();
+            for axiom in layer.clone() {
+                if self.fire(axiom, state) && self.waiting_axioms.is_some() {
+                    new.push(self.axioms[axiom].head);
                 }
-                if !changed || !self.recursive_axioms {
-                    break;
+            }
+            // Recursive axioms: only those that wait for something new can fire again.
+            let Some(waiting) = &self.waiting_axioms else { continue };
+            while let Some(fact) = new.pop() {
+                for axiom in waiting.row(fact.index()).iter().map(|&axiom| axiom as usize) {
+                    if layer.contains(&axiom) && self.fire(axiom, state) {
+                        new.push(self.axioms[axiom].head);
+                    }
                 }
             }
         }
+    }
+
+    /// Makes an axiom's head true if its body holds; whether that is new.
+    #[inline]
+    fn fire(&self, axiom: usize, state: &mut [u64]) -> bool {
+        let axiom = &self.axioms[axiom];
+        let head = &self.facts[axiom.head.index()];
+        let body = self.axiom_bodies.row(axiom.body as usize);
+        let new = !head.holds(state) && body.iter().all(|&fact| self.holds(state, fact));
+        if new {
+            head.set(state);
+        }
+        new
     }
 
     /// The action an operator stands for, with the spelling of the declarations.

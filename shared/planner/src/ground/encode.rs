@@ -4,6 +4,7 @@ use super::limits::Ticks;
 use super::propositional::{Ground, GroundOperator, Lit, Stretch};
 use super::relation::Relation;
 use super::{GroundError, GroundLimits};
+use crate::csr::Csr;
 use crate::lifted::Lifted;
 use crate::numeric::NumericEffect;
 use crate::task::{AtomText, Axiom, ConditionalEffect, Fact, FactId, Names, Operator, Task, Variable, Write};
@@ -404,7 +405,6 @@ impl Encoder<'_> {
     fn axioms(&mut self) -> Result<(), GroundError> {
         let rules = &self.ground.rules;
         let layering = super::layers::layers(self.ground)?;
-        self.task.recursive_axioms = layering.recursive;
         for layer in layering.layers {
             let start = self.task.axioms.len();
             for rule in layer {
@@ -418,6 +418,13 @@ impl Encoder<'_> {
                 self.task.axiom_bodies.push_row(body);
             }
             self.task.axiom_layers.push(start..self.task.axioms.len());
+        }
+        if layering.recursive {
+            let bodies = &self.task.axiom_bodies;
+            let asks = self.task.axioms.iter().enumerate().flat_map(|(at, axiom)| {
+                bodies.row(axiom.body as usize).iter().map(move |fact| (fact.0, at as u32))
+            });
+            self.task.waiting_axioms = Some(Csr::from_pairs(self.task.facts.len(), asks));
         }
         Ok(())
     }

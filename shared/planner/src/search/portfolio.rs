@@ -39,18 +39,30 @@ pub(super) fn first_plan(
         return Ok(result);
     }
     drop(width);
-    let mut width = WidthSearch::new(task, successors, &landmarks, relaxation(), 2, false);
+    let mut width = Some(WidthSearch::new(task, successors, &landmarks, relaxation(), 2, false));
     loop {
         slice = slice.saturating_mul(4);
         statistics.slice += 1;
-        meter.reserve(width.bytes());
-        if let Some(result) = finished(greedy.run(slice / greedy_cost + 20, meter)?) {
-            return Ok(result);
+        meter.reserve(width.as_ref().map_or(0, WidthSearch::bytes));
+        match greedy.run(slice / greedy_cost + 20, meter) {
+            // Greedy search goes on with all of the memory.
+            Err(GaveUp::Memory) if width.is_some() => width = None,
+            progress => {
+                if let Some(result) = finished(progress?) {
+                    return Ok(result);
+                }
+            }
         }
         statistics.slice += 1;
         meter.reserve(greedy.bytes());
-        if let Some(result) = finished(width.run(slice / width_cost / 2 + 20, meter)?) {
-            return Ok(result);
+        let Some(search) = &mut width else { continue };
+        match search.run(slice / width_cost / 2 + 20, meter) {
+            Err(GaveUp::Memory) => width = None,
+            progress => {
+                if let Some(result) = finished(progress?) {
+                    return Ok(result);
+                }
+            }
         }
     }
 }

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""How long `lamma plan` takes, as a whole process, on household tasks of 6 to 60 objects.
+
+    python3 tests/planner/household.py [--tasks 20] [--lamma-p DIR] [--peer-every 10]
+
+Tasks are generated from the seed: for `kitchen.pddl` beside this file and, with `--lamma-p`, for the domain
+`allactionrobot.pddl` of LaMMA-P in that folder (not shipped). Printed are the median and the 99th percentile of
+CPU and wall-clock time, what `lamma --version` takes alone, and, where Fast Downward is found (see ipc.py), how
+many times longer a call of its `lama-first` takes. Every plan is checked by `lamma validate`.
+"""
+
+import argparse
+import os
+import random
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+import ipc
+
+SIZES = [6, 12, 20, 30, 40, 50, 60]
+
+
+def kitchen(rng, size):
+    """A problem of `size` objects for kitchen.pddl: things to move, slice and heat, a switch to turn."""
+    furniture = ["counter", "fridge", "microwave", "lamp", "table", "cabinet", "sink", "shelf"]
+    places = [f"{furniture[n % 8]}{n}" for n in range(max(3, size // 3))]
+    items = [f"item{n}" for n in range(max(2, size - len(places) - 1))]
+    closable = [p for p in places if p.startswith(("fridge", "microwave", "cabinet"))]
+    switchable = [p for p in places if p.startswith(("microwave", "lamp", "sink"))]
+    init = [f"(at robot1 {rng.choice(places)})", "(knife item0)"]
+    init += [f"(in {i} {rng.choice(places)})" for i in items]
+    init += [f"(closable {p})" for p in closable] + [f"(switchable {p})" for p in switchable]
+    init += [f"(heats {p})" for p in places if p.startswith("microwave")]
+    wanted = rng.sample(items, min(len(items), 3))
+    goal = [f"(in {wanted[0]} {rng.choice(places)})", f"(on {rng.choice(switchable)})"]
+    goal += [f"(sliced {i})" for i in wanted[1:2] if i != "item0"] + [f"(hot {i})" for i in wanted[2:]]
+    return (f"(define (problem p) (:domain kitchen) (:objects robot1 - robot {' '.join(places)} - place "
+            f"{' '.join(items)} - item) (:init {' '.join(init)}) (:goal (and {' '.join(goal)})))")
+
+
+def lamma_p(rng, size):
+    """A problem of `size` objects for LaMMA-P's allactionrobot.pddl."""
+    objects = ["fridge"] + [f"object{n}" for n in range(size - 1)]
+    init = ["(is-fridge fridge)", "(= (fridge-state fridge) 0)", "(not (inaction robot1))"]
+    init += [f"(= (fridge-state {o}) 0)" for o in objects[1:]]
+    init += [f"(at-location {o} {rng.choice(objects[: 1 + size // 3])})" for o in objects[1:]]
+    moved, sliced, switched = rng.sample(objects[1:], 3)
+    goal = [f"(at-location {moved} fridge)", f"(sliced {sliced})", f"(switch-off robot1 {switched})"]
+    return (f"(define (problem p) (:domain allactionrobot) (:objects robot1 - robot {' '.join(objects)} - object) "
+            f"(:init {' '.join(f for f in init if not f.startswith('(not'))}) (:goal (and {' '.join(goal)})))")
+
+
+def timed(command, folder):
+    """CPU and wall-clock seconds and the exit code."""
+    start = time.monotonic()
+    code, cpu, _, _ = ipc.run(command, folder, 60, 8192)
+    return cpu, time.monotonic() - start, code
+
+
+def percentile(values, share):
+    return sorted(values)[min(len(values) - 1, int(share * len(values)))]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tasks", type=int, default=20, help="tasks for each size")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--lamma-p", help="a folder with LaMMA-P's domains")
+    parser.add_argument("--peer-every", type=int, default=10, help="run the peer on every Nth task only")
+    parser.add_argument("--lamma", default=os.path.join(ipc.ROOT, "target/release/lamma"))
+    options = parser.parse_args()
+    lamma = os.path.abspath(options.lamma)
+    if not os.path.exists(lamma):
+        sys.exit(f"{lamma} is not there: build it with `cargo build --release -p lamma`, or give --lamma")
+    downward = ipc.tool("FAST_DOWNWARD", "fast-downward.py")
+    if not downward:
+        print("fast-downward.py is not installed: no comparison", file=sys.stderr)
+    worlds = [("kitchen", os.path.join(ipc.HERE, "kitchen.pddl"), kitchen)]
+    if options.lamma_p:
+        worlds.append(("LaMMA-P", os.path.join(os.path.abspath(options.lamma_p), "allactionrobot.pddl"), lamma_p))
+    with tempfile.TemporaryDirectory() as folder:
+        alone = [timed([lamma, "--version"], folder) for _ in range(20)]
+        print(f"`lamma --version`: {statistics.median(a[0] for a in alone) * 1e3:.1f} ms CPU, "
+              f"{statistics.median(a[1] for a in alone) * 1e3:.1f} ms")
+        print(f"\n{'domain':8} {'objects':>7} {'tasks':>5} {'CPU p50':>8} {'p99 ms':>7} {'wall p50':>8} {'p99 ms':>7} {'times faster than a lama-first call (CPU)':>10}")
+        for name, domain, world in worlds:
+            for size in SIZES:
+                rng = random.Random(options.seed * 1000 + size)
+                cpus, walls, ratios = [], [], []
+                for number in range(options.tasks):
+                    problem, plan = os.path.join(folder, "problem.pddl"), os.path.join(folder, "plan")
+                    with open(problem, "w") as file:
+                        file.write(world(rng, size))
+                    cpu, wall, code = timed([lamma, "plan", domain, problem, "--plan-file", plan], folder)
+                    if code != 0 or subprocess.run([lamma, "validate", domain, problem, plan],
+                                                   capture_output=True).returncode != 0:
+                        sys.exit(f"{name}, {size} objects, task {number}: no valid plan (exit code {code})")
+                    cpus.append(cpu * 1e3)
+                    walls.append(wall * 1e3)
+                    if downward and number % options.peer_every == 0:
+                        theirs, _, code = timed([sys.executable, downward, "--plan-file", os.path.join(folder, "theirs"),
+                                                 "--alias", "lama-first", domain, problem], folder)
+                        if code == 0:
+                            ratios.append(theirs / max(cpu, 1e-4))
+                ratio = f"{ipc.mean(ratios):.0f}" if ratios else "-"
+                print(f"{name:8} {size:7} {len(cpus):5} {statistics.median(cpus):8.1f} {percentile(cpus, 0.99):7.1f} "
+                      f"{statistics.median(walls):8.1f} {percentile(walls, 0.99):7.1f} {ratio:>10}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
