@@ -74,7 +74,7 @@ impl<'a> Join<'a> {
             return false;
         }
         self.steps_left -= 1;
-        if self.steps_left % STEPS_BETWEEN_CHECKS == 0 {
+        if self.steps_left.is_multiple_of(STEPS_BETWEEN_CHECKS) {
             self.stopped = self.limits.check_time().err();
             if self.stopped.is_some() {
                 self.steps_left = 0;

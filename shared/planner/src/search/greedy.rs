@@ -83,8 +83,10 @@ impl<'a, 't> LazyGreedy<'a, 't> {
             }
             self.status.reach(self.task, self.landmarks, parent.0 as usize, &next);
             done += 1;
-            meter.expand(|| self.bytes())?;
+            // The state is expanded in any case: the search may be resumed after it ran out of memory.
+            let spent = meter.expand(|| self.bytes());
             self.expand(state, &next);
+            spent?;
         }
         Ok(Progress::Paused)
     }
