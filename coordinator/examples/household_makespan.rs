@@ -30,14 +30,12 @@ fn main() -> Result<(), String> {
 
 fn one(task: &lamma_domains::tasks::Task, conflicts: u64) -> Result<String, String> {
     let (world, goal) = task.world(0).map_err(|e| e.to_string())?;
-    let mut domain = world.domain.clone();
-    domain.actions.retain(|a| Some(&a.name) != world.on_lost.as_ref());
     let members = world.members.iter();
     let team = Team {
         members: members
             .map(|m| Member { name: Name::new(&m.name), domain: Arc::new(m.domain.clone()) })
             .collect(),
-        domain: Arc::new(domain),
+        domain: Arc::new(world.team_domain()),
         objects: world.objects.clone(),
         relaxations: Vec::new(),
         skill_facts: Default::default(),

@@ -460,12 +460,12 @@
   ; What happens in a home without the team: somebody carries a thing elsewhere, somebody shuts a door.
 
   (:action ObjectMoved
-    :parameters (?x - item ?from ?to - thing)
-    :precondition (and (in ?x ?from) (accepts ?to ?x) (accessible ?to) (exposed ?to) (not (= ?from ?to))
+    :parameters (?x - item ?to - thing)
+    :precondition (and (placed ?x) (accepts ?to ?x) (accessible ?to) (exposed ?to) (not (in ?x ?to))
                        (not (heating ?to)) (not (cooling ?to)) (not (rinsing ?to))
                        (forall (?h - robot) (not (supporting ?h ?x))))
     :effect (and
-      (not (in ?x ?from))
+      (forall (?c - thing) (not (in ?x ?c)))
       (in ?x ?to)
       (not (exposed ?x))
       (when (fixed ?to) (exposed ?x))

@@ -180,6 +180,7 @@ mod tests {
             (r#""hands": 1"#, r#""hand": 1"#, "unknown key `hand`; did you mean `hands`?"),
             (r#""hands": 1"#, r#""hands": 9"#, "hands is 9; give 1 to 4"),
             (r#""count": 2"#, r#""count": 2000"#, "at most 50"),
+            (r#"{"type": "Lettuce"}"#, r#"{"type": "Fridge", "count": 2}"#, "has 1 × Fridge, not 2"),
             (r#""in": "CounterTop""#, r#""in": "CounterTip""#, "did you mean `CounterTop`"),
             (r#""in": "CounterTop""#, r#""in": "StoveBurner""#, "a StoveBurner does not take a Apple"),
             (r#""robot1""#, r#""robot99""#, "unknown robot `robot99`"),

@@ -165,9 +165,6 @@ pub struct Rules {
     /// Furniture and fixtures, by type or name, where only one robot at a time can stand.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub exclusive: Vec<String>,
-    /// Going takes as long as the way is, instead of one time step; see [`crate::travel`].
-    #[serde(skip_serializing_if = "is_false")]
-    pub travel: bool,
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
@@ -358,13 +355,20 @@ fn check_spec(spec: &ObjectSpec) -> Result<&'static kinds::Kind, HouseError> {
 
 /// States of furniture and fixtures, which no task adds or removes.
 fn restate(things: &mut [Thing], spec: &ObjectSpec) -> Result<(), HouseError> {
-    let mut found = things.iter_mut().filter(|t| t.kind == spec.kind).peekable();
-    if found.peek().is_none() {
+    let there = things.iter().filter(|t| t.kind == spec.kind).count();
+    if there == 0 {
         return Err(HouseError::BadObject(format!(
             "this scene has no {}, and what cannot be picked up cannot be added",
             spec.kind
         )));
     }
+    if spec.count as usize > there {
+        return Err(HouseError::BadObject(format!(
+            "this scene has {there} × {}, not {}, and what cannot be picked up cannot be added",
+            spec.kind, spec.count
+        )));
+    }
+    let found = things.iter_mut().filter(|t| t.kind == spec.kind);
     for thing in found.take(spec.count as usize) {
         thing.is.extend(spec.is.clone());
     }

@@ -67,6 +67,23 @@ fn every_goal_is_within_its_teams_reach_and_most_need_more_than_one_robot() {
     assert!(together >= 40, "only {together} tasks need more than one robot");
 }
 
+/// `lamma bench --tasks domains/tasks/mat-thor.jsonl --write-references` wrote them.
+#[test]
+fn every_task_has_a_reference_that_contradicts_nothing() {
+    let mut tight = 0;
+    for task in suite() {
+        let reference = task.reference.unwrap_or_else(|| panic!("{}: no reference", task.id));
+        let (makespan, bound) = (reference.makespan, reference.lower_bound);
+        let robots = task.team.len() as u32;
+        assert!(bound >= 1 && bound <= makespan, "{}: {reference:?}", task.id);
+        let steps = reference.steps;
+        assert!(makespan <= steps && steps <= makespan * robots, "{}: {reference:?}", task.id);
+        tight += usize::from(bound == makespan);
+    }
+    println!("{tight} of 70 references are proved to be the shortest");
+    assert!(tight >= 60, "only {tight} references are proved to be the shortest");
+}
+
 /// Two a scene, or as many as `GENERATED_TASKS` says.
 #[test]
 fn generated_tasks_of_every_scene_are_within_reach() {

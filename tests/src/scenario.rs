@@ -174,6 +174,7 @@ impl Scenario {
             agents: agents.collect(),
             on_lost: Some(Name::new("Lost")),
             step_ms: 0,
+            events: Vec::new(),
         })
         .expect("the world can be set up")
     }

@@ -78,6 +78,7 @@ impl Both {
             agents: agents.collect(),
             on_lost: setup.on_lost.clone(),
             step_ms: 0,
+            events: Vec::new(),
         })
         .unwrap();
         let house = House::new(&setup, team, rules);

@@ -15,6 +15,7 @@ use lamma_protocol::{AgentId, Epoch, FrameHeader, Input, Machine, Output, Revisi
 use thiserror::Error;
 
 use crate::clock::LogicalClock;
+use crate::events::{Event, Events, Happening};
 use crate::vocabulary::FactTable;
 
 /// How often the arbiter repeats what it last said, in milliseconds.
@@ -45,6 +46,8 @@ pub struct WorldConfig {
     /// How long a time step takes, in milliseconds: an action is applied that long after it was asked for.
     /// 0 applies it at once.
     pub step_ms: u64,
+    /// What happens without the team.
+    pub events: Vec<Event>,
 }
 
 /// A world that cannot be.
@@ -74,6 +77,8 @@ pub struct Arbiter {
     /// Requests that are being carried out, and when they are done.
     under_way: Vec<Option<(Tick, Request)>>,
     repeat_at: Tick,
+    events: Events,
+    now: Tick,
     outputs: VecDeque<Output<()>>,
 }
 
@@ -104,6 +109,8 @@ impl Arbiter {
             step_ms: config.step_ms,
             under_way: vec![None; agents],
             repeat_at: Tick(0),
+            events: Events::new(config.events, agents),
+            now: Tick(0),
             outputs: VecDeque::new(),
         };
         arbiter.changed();
@@ -147,8 +154,14 @@ impl Arbiter {
     /// Settles the requests whose time has come.
     fn settle_due(&mut self, now: Tick) {
         for agent in (0..self.agents.len() as u16).map(AgentId) {
-            let due = self.under_way[agent.index()].take_if(|(at, _)| *at <= now);
-            if let Some((_, request)) = due {
+            let Some((_, request)) = self.under_way[agent.index()].take_if(|(at, _)| *at <= now) else {
+                continue;
+            };
+            let still = self.events.still_at();
+            if self.events.is_due(agent) && still > now {
+                // Others have acted meanwhile: it is held on.
+                self.under_way[agent.index()] = Some((still, request));
+            } else {
                 self.settle(agent, &request);
             }
         }
@@ -168,15 +181,7 @@ impl Arbiter {
     fn let_go(&mut self, agent: AgentId) {
         let (Some(action), Some(spec)) = (&self.on_lost, self.agents.get(agent.index())) else { return };
         let act = GroundAct::new(action.clone(), [spec.name.clone()]);
-        let done = self
-            .interpreter
-            .instantiate(&act)
-            .map_err(|e| e.to_string())
-            .and_then(|a| self.interpreter.apply(&mut self.state, &a).map_err(|e| e.to_string()));
-        match done {
-            Ok(_) => self.changed(),
-            Err(why) => self.outputs.push_back(Output::Log(format!("{act} did not happen: {why}"))),
-        }
+        self.befall(&act);
     }
 
     fn request(&mut self, now: Tick, agent: AgentId, revision: Revision, request: Request) {
@@ -185,13 +190,15 @@ impl Arbiter {
             return;
         }
         *heard = Some(revision);
-        if self.step_ms == 0 {
+        let held = self.events.is_due(agent);
+        if self.step_ms == 0 && !held {
             return self.settle(agent, &request);
         }
         let slot = &mut self.under_way[agent.index()];
         let same = slot.as_ref().is_some_and(|(_, known)| *known == request);
         if !same {
-            *slot = Some((now.after_ms(self.step_ms), request));
+            let still = if held { self.events.still_at() } else { now };
+            *slot = Some((now.after_ms(self.step_ms).max(still), request));
         }
     }
 
@@ -225,7 +232,15 @@ impl Arbiter {
             return refuse(RefusalKind::TooEarly, reason);
         }
         self.requested += 1;
-        match self.act(agent, &request.act) {
+        let failed = self.happen(agent);
+        self.events.judged(agent);
+        let done = match failed {
+            true => {
+                Err((RefusalKind::Precondition, "the action has failed, by no fault of the plan".to_string()))
+            }
+            false => self.act(agent, &request.act),
+        };
+        match done {
             Ok(duration) => {
                 self.applied += 1;
                 self.progress[agent.index()] = next.next();
@@ -238,6 +253,31 @@ impl Arbiter {
                 self.changed();
                 refuse(kind, reason)
             }
+        }
+    }
+
+    /// Lets happen what happens before the agent's next step; true if that step fails.
+    fn happen(&mut self, agent: AgentId) -> bool {
+        let mut failed = false;
+        for happening in self.events.take(agent) {
+            match happening {
+                Happening::Fail => failed = true,
+                Happening::Act(act) => self.befall(&act),
+            }
+        }
+        failed
+    }
+
+    /// An action that is nobody's, if it is possible.
+    fn befall(&mut self, act: &GroundAct) {
+        let done = self
+            .interpreter
+            .instantiate(act)
+            .map_err(|e| e.to_string())
+            .and_then(|a| self.interpreter.apply(&mut self.state, &a).map_err(|e| e.to_string()));
+        match done {
+            Ok(_) => self.changed(),
+            Err(why) => self.outputs.push_back(Output::Log(format!("{act} did not happen: {why}"))),
         }
     }
 
@@ -285,6 +325,7 @@ impl Arbiter {
     /// The world or its counters have changed: a new version, and a frame that shows it.
     fn changed(&mut self) {
         self.version += 1;
+        self.events.changed(self.now);
         if self.facts.cover(&self.state.facts) {
             self.say_vocabulary();
         }
@@ -324,6 +365,7 @@ impl Machine for Arbiter {
     type Done = ();
 
     fn handle(&mut self, now: Tick, input: Input<'_, ()>) {
+        self.now = now;
         match input {
             Input::Message(topic, envelope) => match (topic, envelope.message) {
                 (Topic::Grant, Message::Grant(grant)) => self.grant(envelope.revision, grant),

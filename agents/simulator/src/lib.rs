@@ -2,6 +2,8 @@
 
 mod arbiter;
 mod clock;
+mod events;
 mod vocabulary;
 
 pub use arbiter::{AgentSpec, Arbiter, ArbiterError, WorldConfig};
+pub use events::{Event, Happening};

@@ -120,6 +120,13 @@ pub struct CommonArgs {
     /// How long the simulator takes for each action, in milliseconds: to watch, or to interfere.
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(..=60_000))]
     pub step_ms: u64,
+    /// A script of what happens without the team (JSON Lines): `{"robot": "robot1", "before_step": 3, "fail": true}`,
+    /// or instead of `fail`: `"move": "Apple_1", "to": "DiningTable_1"`, or `"close": "Fridge_1"`.
+    #[arg(long, value_name = "FILE")]
+    pub events: Option<PathBuf>,
+    /// Let so many such events happen, drawn by the seed.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=100))]
+    pub random_events: u32,
 }
 
 /// Transports.
@@ -185,7 +192,7 @@ pub struct ValidateArgs {
 #[derive(Debug, Args)]
 pub struct BenchArgs {
     /// A task file, one JSON object a line.
-    #[arg(long, conflicts_with = "mat_thor", required_unless_present = "mat_thor")]
+    #[arg(long, conflicts_with = "mat_thor", required_unless_present_any = ["mat_thor", "generated"])]
     pub tasks: Option<PathBuf>,
     /// A folder of MAT-THOR task files, read as they were released.
     #[arg(long)]
@@ -193,18 +200,27 @@ pub struct BenchArgs {
     /// The robots of the MAT-THOR files [default: the catalogue].
     #[arg(long, requires = "mat_thor")]
     pub robots: Option<PathBuf>,
+    /// So many tasks made up for each of the 120 floor plans, by the seed.
+    #[arg(long, value_name = "N", conflicts_with_all = ["tasks", "mat_thor"], value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub generated: Option<u16>,
     /// Only tasks whose id contains this.
     #[arg(long)]
     pub only: Option<String>,
     /// Tasks at once.
     #[arg(long, default_value_t = 1)]
     pub jobs: usize,
-    /// Write results.json and results.csv to this folder.
+    /// Write results.json, results.csv (the same for the same seed) and timings.json to this folder.
     #[arg(long)]
     pub out: Option<PathBuf>,
     /// Plan for the tasks' own goals instead of understanding their sentences.
     #[arg(long)]
     pub goals_given: bool,
+    /// Also print what the formulas of the released MAT-THOR evaluator give, for comparison only.
+    #[arg(long)]
+    pub compat: bool,
+    /// Instead of a run: work out the best schedule and the proved bound of each task, and write them into the file.
+    #[arg(long, requires = "tasks", conflicts_with_all = ["goals_given", "compat", "only"])]
+    pub write_references: bool,
     /// Options shared with other commands.
     #[command(flatten)]
     pub common: CommonArgs,

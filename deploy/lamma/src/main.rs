@@ -2,7 +2,9 @@
 
 mod cli;
 mod commands;
+mod compat;
 mod error;
+mod events;
 mod exit;
 mod host;
 mod json;
@@ -10,6 +12,9 @@ mod launch;
 mod out;
 mod process;
 mod process_host;
+mod published;
+mod references;
+mod results;
 mod show;
 mod spec;
 mod suite;

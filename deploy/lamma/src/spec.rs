@@ -12,6 +12,7 @@ use lamma_domains::world::{ObjectSpec, Rules, WorldSetup, setup_with};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Failure;
+use crate::events::ScriptLine;
 
 /// Everything the processes of a run need to know.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -42,6 +43,10 @@ pub struct RunSpec {
     pub time_limit_ms: u64,
     /// How long a time step takes, in milliseconds.
     pub step_ms: u64,
+    /// What happens without the team, by script.
+    pub events: Vec<ScriptLine>,
+    /// And so many events more, drawn by the seed.
+    pub random_events: u32,
 }
 
 /// What is wanted.

@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use lamma_domains::matthor::{RobotIds, import};
-use lamma_domains::tasks;
+use lamma_domains::matthor::{RobotIds, TruthEntry, import};
+use lamma_domains::{generate, scene, tasks};
 
 use crate::cli::BenchArgs;
+use crate::compat::truth_of;
 use crate::error::Failure;
 
 /// A suite.
@@ -30,14 +31,44 @@ pub struct Entry {
     pub impossible: Option<String>,
     /// Why it does not count among those whose goal can hold and agrees with the sentence.
     pub set_aside: Option<String>,
+    /// Its ground truth in the terms of the released evaluator.
+    pub truth: Vec<TruthEntry>,
+}
+
+impl Suite {
+    /// Whether it is divided as the paper's table is.
+    pub fn has_the_papers_categories(&self) -> bool {
+        ["compound", "complex", "vague"].iter().all(|c| self.entries.iter().any(|e| e.task.category == *c))
+    }
 }
 
 /// Reads what the arguments name.
 pub fn read(args: &BenchArgs) -> Result<Suite, Failure> {
-    match (&args.tasks, &args.mat_thor) {
-        (Some(file), _) => own(file),
-        (None, Some(folder)) => mat_thor(folder, args.robots.as_deref()),
-        (None, None) => Err(Failure::bad_input("name a suite: --tasks FILE.jsonl or --mat-thor DIR")),
+    match (&args.tasks, &args.mat_thor, args.generated) {
+        (Some(file), ..) => own(file),
+        (None, Some(folder), _) => mat_thor(folder, args.robots.as_deref()),
+        (None, None, Some(count)) => generated(usize::from(count), args.common.seed),
+        (None, None, None) => {
+            Err(Failure::bad_input("name a suite: --tasks FILE.jsonl, --mat-thor DIR or --generated N"))
+        }
+    }
+}
+
+/// Tasks made up for every floor plan.
+fn generated(count: usize, seed: u64) -> Result<Suite, Failure> {
+    let mut entries = Vec::new();
+    for scene in scene::names() {
+        let tasks = generate::tasks(&scene, count, seed).map_err(Failure::bad_input)?;
+        entries.extend(tasks.into_iter().map(Entry::of));
+    }
+    let name = format!("{count} generated tasks in each floor plan");
+    Ok(Suite { name, entries, notes: Vec::new(), imported: false })
+}
+
+impl Entry {
+    fn of(task: tasks::Task) -> Entry {
+        let truth = truth_of(&task.goal);
+        Entry { task, repairs: Vec::new(), impossible: None, set_aside: None, truth }
     }
 }
 
@@ -58,10 +89,9 @@ fn own(file: &Path) -> Result<Suite, Failure> {
             file.display()
         )));
     }
-    let entry = |task| Entry { task, repairs: Vec::new(), impossible: None, set_aside: None };
     Ok(Suite {
         name: file.display().to_string(),
-        entries: tasks.into_iter().map(entry).collect(),
+        entries: tasks.into_iter().map(Entry::of).collect(),
         notes: Vec::new(),
         imported: false,
     })
@@ -95,6 +125,7 @@ fn mat_thor(folder: &Path, robots: Option<&Path>) -> Result<Suite, Failure> {
                 repairs: line.repairs,
                 set_aside: line.impossible.clone().or(disagrees),
                 impossible: line.impossible,
+                truth: line.truth,
             });
         }
     }

@@ -67,7 +67,7 @@ impl Row {
     /// One line per task, for spreadsheets.
     pub fn csv(suite: &Suite, finished: &[Finished]) -> String {
         let mut out = String::from(
-            "id,category,outcome,sr,gcr,exe,ru,eff,steps,makespan,makespan_lower_bound,total_ms,set_aside\n",
+            "id,category,outcome,sr,gcr,exe,ru,eff,steps,makespan,makespan_lower_bound,set_aside\n",
         );
         for f in finished {
             let (entry, m, plan) = (&suite.entries[f.index], &f.result.metrics, &f.result.plan);
@@ -76,7 +76,7 @@ impl Row {
             // Writing to a string does not fail.
             let _ = writeln!(
                 out,
-                "{},{},{},{},{},{},{},{},{},{},{},{:.1},{}",
+                "{},{},{},{},{},{},{},{},{},{},{},{}",
                 entry.task.id,
                 entry.task.category,
                 outcome.as_str().unwrap_or_default(),
@@ -88,7 +88,6 @@ impl Row {
                 plan.length,
                 plan.makespan,
                 plan.makespan_lower_bound,
-                f.result.time_ms.total,
                 u8::from(entry.set_aside.is_some()),
             );
         }
@@ -115,4 +114,30 @@ pub fn text(name: &str, rows: &[Row]) -> String {
         );
     }
     out
+}
+
+/// What RU and Eff were measured against.
+pub fn references(suite: &Suite, n: usize) -> String {
+    let known = || suite.entries.iter().filter_map(|e| e.task.reference);
+    let tight = known().filter(|r| r.makespan == r.lower_bound).count();
+    format!(
+        "RU and Eff: against the best schedule known: for {} of {n} tasks the file's (for {tight} of them proved to be \
+         the shortest), else the run's own first plan",
+        known().count()
+    )
+}
+
+/// What the released evaluator's formulas give, over the runs that they can be applied to.
+pub fn compat(finished: &[Finished]) -> String {
+    let scores: Vec<_> = finished.iter().filter_map(|f| f.compat).collect();
+    let n = scores.len().max(1) as f64;
+    let (tc, gcr) = scores.iter().fold((0.0, 0.0), |(tc, gcr), s| (tc + s.tc, gcr + s.gcr));
+    format!(
+        "released evaluator's formulas, for comparison only: TC {:.2}  GCR {:.2} (can exceed 1) over {} of {} runs; \
+         its Eff does not exist and its RU counts blank lines of generated Python",
+        tc / n,
+        gcr / n,
+        scores.len(),
+        finished.len()
+    )
 }

@@ -10,7 +10,8 @@ use lamma_domains::robots::team;
 use serde_json::{Value, json};
 
 use crate::cli::{BenchArgs, Format};
-use crate::commands::run::{check_lm, spec_from};
+use crate::commands::run::{check_lm, script, spec_from};
+use crate::compat::{self, Compat};
 use crate::error::Failure;
 use crate::exit;
 use crate::json;
@@ -19,8 +20,9 @@ use crate::out::say;
 use crate::spec::{RunSpec, Task};
 use crate::suite::{self, Entry, Suite};
 use crate::supervise::RunDir;
-use crate::table::{self, Row};
+use crate::table;
 use crate::watch::Silent;
+use crate::{events, published, references, results};
 
 /// One finished task.
 pub struct Finished {
@@ -30,6 +32,8 @@ pub struct Finished {
     pub result: RunResult,
     /// As the contract prints it.
     pub json: Value,
+    /// What the released evaluator would say, where it was asked for.
+    pub compat: Option<Compat>,
 }
 
 /// Runs the suite; 0 if every task could be run, whatever came of it.
@@ -40,6 +44,12 @@ pub fn bench(args: &BenchArgs) -> Result<u8, Failure> {
         if suite.entries.is_empty() {
             return Err(Failure::bad_input(format!("no task of {} has {only:?} in its id", suite.name)));
         }
+    }
+    if args.write_references
+        && let Some(file) = &args.tasks
+    {
+        let tasks: Vec<_> = suite.entries.into_iter().map(|e| e.task).collect();
+        return references::write(file, &tasks);
     }
     check_lm(&spec_from(&args.common, Task::Goal(Vec::new())))?;
     for note in &suite.notes {
@@ -109,15 +119,15 @@ fn line(entry: &Entry, result: &RunResult) -> String {
 }
 
 fn run_one(args: &BenchArgs, folder: &Path, index: usize, entry: &Entry) -> Finished {
-    let folder = folder.join(&entry.task.id);
-    let (result, mut json) = match try_one(args, &folder, entry) {
-        Ok((result, json)) => (result, json),
+    let folder = folder.join(folder_name(index, &entry.task.id));
+    let (result, mut json, compat) = match try_one(args, &folder, entry) {
+        Ok(run) => run,
         Err(failure) => {
             let kind =
                 if failure.code == exit::BAD_INPUT { OutcomeKind::Infeasible } else { OutcomeKind::Error };
             let result = RunResult::unfinished(kind, failure.text);
             let json = serde_json::to_value(&result).unwrap_or_default();
-            (result, json)
+            (result, json, None)
         }
     };
     if let Value::Object(object) = &mut json {
@@ -127,23 +137,41 @@ fn run_one(args: &BenchArgs, folder: &Path, index: usize, entry: &Entry) -> Fini
         if !entry.repairs.is_empty() {
             object.insert("repairs".into(), json!(entry.repairs));
         }
+        if let Some(compat) = compat {
+            object.insert("compat".into(), compat.json());
+        }
         if let Some(why) = &entry.set_aside {
             object.insert("set_aside".into(), json!(why));
         }
     }
-    Finished { index, result, json }
+    Finished { index, result, json, compat }
 }
 
-fn try_one(args: &BenchArgs, folder: &Path, entry: &Entry) -> Result<(RunResult, Value), Failure> {
+/// The folder of a task's run: its id, if that is a name and no path.
+fn folder_name(index: usize, id: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    match id.chars().all(plain) && !id.starts_with('.') && !id.is_empty() && id.len() <= 100 {
+        true => id.to_string(),
+        false => format!("task-{}", index + 1),
+    }
+}
+
+fn try_one(
+    args: &BenchArgs,
+    folder: &Path,
+    entry: &Entry,
+) -> Result<(RunResult, Value, Option<Compat>), Failure> {
     if let Some(why) = &entry.impossible {
         return Err(Failure::bad_input(format!("the goal cannot hold in this scene: {why}")));
     }
     let spec = spec(args, entry)?;
     let world = Arc::new(spec.world()?);
+    events::resolve(&spec.events, &world)?;
     std::fs::create_dir_all(folder.join("logs")).map_err(|e| Failure::io("create", folder, &e))?;
-    let launched = launch(spec, world, args.common.bus, folder, &mut Silent)?;
+    let launched = launch(spec, world.clone(), args.common.bus, folder, &mut Silent)?;
     let json = json::run(&launched, &args.common);
-    Ok((launched.result, json))
+    let compat = args.compat.then(|| compat::score(&world, &launched.result, &entry.truth)).flatten();
+    Ok((launched.result, json, compat))
 }
 
 fn spec(args: &BenchArgs, entry: &Entry) -> Result<RunSpec, Failure> {
@@ -156,6 +184,7 @@ fn spec(args: &BenchArgs, entry: &Entry) -> Result<RunSpec, Failure> {
     let mut spec = spec_from(&args.common, wanted);
     spec.id = task.id.clone();
     spec.scene = task.scene.clone();
+    spec.events = script(&args.common)?;
     spec.team = team(&task.team).map_err(Failure::bad_input)?;
     spec.objects = task.objects.clone();
     spec.rules = task.rules.clone();
@@ -173,17 +202,20 @@ fn report(args: &BenchArgs, suite: &Suite, finished: &[Finished], seconds: f64) 
         "table": rows.iter().map(|r| (r.name.clone(), r.json())).collect::<serde_json::Map<_, _>>(),
     });
     if let Some(out) = &args.out {
-        write_out(out, &value, suite, finished)?;
+        results::write(out, &value, suite, finished)?;
     }
     match args.common.format {
         Format::Json => say(serde_json::to_string(&value).map_err(Failure::fault)?),
         Format::Text => {
             say(table::text(&suite.name, &rows).trim_end());
             let n = finished.len();
-            let known = suite.entries.iter().filter(|e| e.task.reference.is_some()).count();
-            say(format_args!(
-                "RU and Eff: against the best schedule known: for {known} of {n} tasks the file's, else the run's own first plan"
-            ));
+            say(table::references(suite, n));
+            if args.compat {
+                say(table::compat(finished));
+            }
+            if suite.has_the_papers_categories() {
+                say(published::text().trim_end());
+            }
             say(format_args!(
                 "{n} tasks in {seconds:.1} s; seed {}; goals judged on the simulator's state",
                 args.common.seed
@@ -191,12 +223,4 @@ fn report(args: &BenchArgs, suite: &Suite, finished: &[Finished], seconds: f64) 
         }
     }
     Ok(())
-}
-
-fn write_out(out: &Path, value: &Value, suite: &Suite, finished: &[Finished]) -> Result<(), Failure> {
-    let fail = |e: &std::io::Error| Failure::bad_input(format!("cannot write to {}: {e}", out.display()));
-    std::fs::create_dir_all(out).map_err(|e| fail(&e))?;
-    let text = serde_json::to_string_pretty(value).map_err(Failure::fault)?;
-    std::fs::write(out.join("results.json"), text).map_err(|e| fail(&e))?;
-    std::fs::write(out.join("results.csv"), Row::csv(suite, finished)).map_err(|e| fail(&e))
 }

@@ -9,6 +9,7 @@ use lamma_domains::world::{Rules, WorldSetup};
 
 use crate::cli::{CommonArgs, Format, RunArgs};
 use crate::error::Failure;
+use crate::events;
 use crate::exit;
 use crate::json;
 use crate::launch::{Launched, launch};
@@ -30,6 +31,8 @@ pub fn run(args: &RunArgs, solve_only: bool) -> Result<u8, Failure> {
     spec.solve_only = solve_only;
     check_lm(&spec)?;
     let world = Arc::new(spec.world()?);
+    spec.events = script(&args.common)?;
+    events::resolve(&spec.events, &world)?;
     let launched = in_folder(spec, world, &args.common, lines(args.common.format).as_mut())?;
     print(&launched, &args.common)?;
     Ok(exit::of(launched.result.outcome))
@@ -64,7 +67,14 @@ pub fn spec_from(common: &CommonArgs, task: Task) -> RunSpec {
         // Bounded by the parser of the option.
         time_limit_ms: (common.time_limit * 1e3) as u64,
         step_ms: common.step_ms,
+        events: Vec::new(),
+        random_events: common.random_events,
     }
+}
+
+/// The script of `--events`, if there is one.
+pub fn script(common: &CommonArgs) -> Result<Vec<events::ScriptLine>, Failure> {
+    common.events.as_deref().map_or(Ok(Vec::new()), events::read)
 }
 
 /// A wrong `--lm` is the user's mistake and is told before anything starts.

@@ -26,6 +26,7 @@ use lamma_robot::{Robot, RobotConfig, RobotDone, RobotJob};
 use lamma_simulator::{AgentSpec, Arbiter, WorldConfig};
 
 use crate::error::Failure;
+use crate::events;
 use crate::spec::{EXPANSIONS, RunSpec, Task, domain_file};
 
 /// A machine and the workers that do its long work.
@@ -79,6 +80,8 @@ pub fn arbiter_parts(spec: &RunSpec, world: &WorldSetup) -> Result<Parts<Arbiter
         name: Name::new(&m.name),
         skills: m.domain.actions.iter().map(|a| a.name.clone()).collect(),
     });
+    let mut script = spec.events.clone();
+    script.extend(events::random(world, spec.random_events, spec.seed));
     let machine = Arbiter::new(WorldConfig {
         domain: world.domain.clone(),
         objects: world.objects.clone(),
@@ -86,6 +89,7 @@ pub fn arbiter_parts(spec: &RunSpec, world: &WorldSetup) -> Result<Parts<Arbiter
         agents: agents.collect(),
         on_lost: world.on_lost.clone(),
         step_ms: spec.step_ms,
+        events: events::resolve(&script, world)?,
     })
     .map_err(Failure::fault)?;
     Ok(Parts { machine, workers: Vec::new() })

@@ -1,0 +1,59 @@
+//! Benchmarks: what they write, and that they write the same again.
+
+use crate::tools::{Folder, json, output, run_args};
+
+const TASKS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../domains/tasks/mat-thor.jsonl");
+
+/// Must show: the same seed gives the same results, to the byte.
+#[test]
+fn a_repeated_benchmark_writes_the_same_bytes() {
+    let folder = Folder::new("bench-twice");
+    let mut seen: Vec<Vec<Vec<u8>>> = Vec::new();
+    for out in ["first", "second"] {
+        let args = ["bench", "--tasks", TASKS, "--only", "vague-0", "--jobs", "2", "--out", out, "--compat"];
+        let done = output(&folder, &args);
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        let read = |name: &str| std::fs::read(folder.0.join(out).join(name)).unwrap();
+        assert!(!read("timings.json").is_empty());
+        seen.push(["results.json", "results.csv"].map(read).to_vec());
+    }
+    assert!(seen[0] == seen[1], "results differ between two runs of the same seed");
+    let results: serde_json::Value = serde_json::from_slice(&seen[0][0]).unwrap();
+    assert_eq!(results["tasks"].as_array().unwrap().len(), 9);
+    assert!(results["tasks"][0].get("run_dir").is_none() && results["tasks"][0].get("time_ms").is_none());
+    assert!(results["tasks"][0]["compat"]["gcr"].is_number());
+}
+
+#[test]
+fn generated_tasks_are_a_suite() {
+    let folder = Folder::new("bench-generated");
+    let args = ["bench", "--generated", "2", "--only", "FloorPlan41", "--goals-given", "--bus", "inproc", "--format", "json"];
+    let (code, result) = json(&output(&folder, &args));
+    assert_eq!(code, 0);
+    assert_eq!(result["tasks"].as_array().unwrap().len(), 20, "two in each of FloorPlan410 to 419");
+    assert_eq!(result["table"]["all"]["sr"], 1.0, "{result:#}");
+}
+
+/// An action that fails is planned around, and the same script gives the same episode.
+#[test]
+fn events_are_planned_around() {
+    let folder = Folder::new("events");
+    let script = folder.file(
+        "script.jsonl",
+        "{\"robot\": \"robot1\", \"before_step\": 2, \"fail\": true}\n\
+         {\"robot\": \"robot1\", \"before_step\": 4, \"move\": \"Apple_1\", \"to\": \"CounterTop_1\"}\n",
+    );
+    let mut seen = Vec::new();
+    for _ in 0..2 {
+        let args = run_args("Put the tomato in the fridge", "robot1,robot2", &["--events", &script]);
+        let (code, result) = json(&output(&folder, &args));
+        assert_eq!(code, 0, "{result:#}");
+        assert!(result["metrics"]["exe"].as_f64().unwrap() < 1.0, "a step was refused: {result:#}");
+        seen.push((result["plan"].clone(), result["metrics"].clone()));
+    }
+    assert_eq!(seen[0], seen[1]);
+    let wrong = folder.file("wrong.jsonl", "{\"robot\": \"robto1\", \"before_step\": 2, \"fail\": true}\n");
+    let done = output(&folder, &run_args("Put the tomato in the fridge", "robot1", &["--events", &wrong]));
+    assert_eq!(done.status.code(), Some(20));
+    assert!(String::from_utf8_lossy(&done.stderr).contains("did you mean `robot1`"));
+}
