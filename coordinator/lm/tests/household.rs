@@ -11,7 +11,7 @@ const LINES: &str = include_str!("data/household.txt");
 fn our_sentences_are_read_as_they_are_meant() {
     let offline = Offline::new().expect("the built-in lexicon reads");
     let outcomes = judge::outcomes(LINES, &offline).expect("every line has a scene, a sentence and a goal");
-    for (kind, least) in [(Kind::Plain, 0.95), (Kind::Vague, 0.95), (Kind::Asks, 0.9)] {
+    for (kind, least) in [(Kind::Plain, 0.95), (Kind::Vague, 0.95), (Kind::Asks, 0.85)] {
         let all: Vec<_> = outcomes.iter().filter(|outcome| outcome.kind == kind).collect();
         let bad: Vec<String> = all
             .iter()

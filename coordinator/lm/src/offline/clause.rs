@@ -301,7 +301,20 @@ impl<'a> Parser<'a> {
             && !verbs.iter().all(|verb| verb.act == Act::Go)
             && self.longest_noun().is_none()
             && preposition(&self.rest()).is_none()
-            && self.word_at(length).is_some_and(|next| is_determiner(next) || next == "it" || next == "them")
+            && (self
+                .word_at(length)
+                .is_some_and(|next| is_determiner(next) || next == "it" || next == "them")
+                || form == VerbForm::Base && self.bare_order_follows(length))
+    }
+
+    /// "open fridge take egg": a verb and a noun with no article, as in notes.
+    fn bare_order_follows(&self, length: usize) -> bool {
+        let plain = self.peek().is_some_and(|word| {
+            self.lexicon.adjective(&[word]).is_none()
+                && !self.lexicon.is_small("modifiers", &[word])
+                && !self.lexicon.is_small("rooms", &[word])
+        });
+        plain && self.longest_noun_at(self.position + length).is_some()
     }
 
     fn ahead(&self, offset: usize) -> Parser<'a> {

@@ -124,6 +124,11 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             spoken = self.only_mention(clause);
         } else if clause.unknown.is_empty() && clause.says_any(&["want", "need", "like", "love", "fancy"]) {
             spoken = self.bring(clause);
+        } else if clause.is_remark() && (next.is_some() || index > 0) {
+            // Why something is wanted is no order.
+            self.discourse.assume(format!("took \"{}\" as a remark", clause.text), 0.9);
+            spoken = self.only_mention(clause);
+            self.spoke = next.is_some_and(speaks_of_it);
         } else if !clause.objects.is_empty() || !clause.unknown.is_empty() {
             self.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.25);
         }
@@ -136,7 +141,13 @@ impl<'d, 'a> Interpreter<'d, 'a> {
     /// "the pan is dirty, wash it": only says what is spoken of.
     fn only_mention(&mut self, clause: &Clause<'a>) -> Spoken {
         let mut objects = Vec::new();
-        for phrase in &clause.objects {
+        let scene = self.discourse.scene;
+        let is_here = |phrase: &&Phrase| match &phrase.head {
+            Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.has(kind)),
+            Head::Named(_) => true,
+            _ => false,
+        };
+        for phrase in clause.objects.iter().filter(is_here) {
             objects.extend(self.discourse.mention(phrase, &clause.places, None));
         }
         self.spoke = true;
@@ -261,7 +272,18 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         phrase
     }
 
+    fn is_movable(&self, phrase: &Phrase) -> bool {
+        matches!(&phrase.head, Head::Noun(noun)
+            if noun.kinds.iter().any(|kind| self.discourse.scene.affords(kind, "pickupable")))
+    }
+
     fn keep(&mut self, clause: &Clause<'a>) -> Spoken {
+        if clause.complement.is_empty() && clause.objects.iter().any(|phrase| self.is_movable(phrase)) {
+            let (goal, _, at) = self.sort_places(clause);
+            if let Some(goal) = goal {
+                return self.put(clause, &at, &goal);
+            }
+        }
         let property = clause.complement.keys().next();
         let wants = property.and_then(|property| match property.as_str() {
             "isOpen" => Some("openable"),

@@ -172,7 +172,8 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         .map(|(at, _)| at)
         .find(|&at| at >= text::LONGEST_INSTRUCTION)
         .unwrap_or(instruction.len());
-    let mut tokens = text::split_articles(text::tokens(&instruction[..cut]), lexicon, scene);
+    let tokens = text::without_list_numbers(text::tokens(&instruction[..cut]));
+    let mut tokens = text::split_articles(tokens, lexicon, scene);
     let repairs = text::repair_spelling(&mut tokens, lexicon, scene);
     let typed: Vec<(String, String)> = tokens
         .iter()
@@ -286,7 +287,8 @@ fn one_clause<'a>(
         }
         literal.restore(interpreter);
     }
-    if failed && !interpreter.spoke && !clause.negated && !is_mere_step(clause) {
+    let remark = clause.is_remark() && clauses.len() > 1;
+    if failed && !interpreter.spoke && !clause.negated && !is_mere_step(clause) && !remark {
         interpreter.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.4);
     }
 }

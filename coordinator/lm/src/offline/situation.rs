@@ -72,6 +72,13 @@ impl Situation {
 }
 
 fn pattern_fits(pattern: &str, words: &[String]) -> Option<usize> {
+    // "I am not hungry" is no hunger.
+    let denied = words
+        .windows(2)
+        .any(|two| two[1] == "not" && ["am", "im", "is", "are", "its", "it"].contains(&two[0].as_str()));
+    if denied && !pattern.contains("not") {
+        return None;
+    }
     let mut explained = 0;
     for part in pattern.split_whitespace() {
         match part.strip_prefix('!') {

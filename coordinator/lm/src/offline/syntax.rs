@@ -179,6 +179,29 @@ impl Clause<'_> {
         self.words.iter().any(|word| words.contains(&word.as_str()))
     }
 
+    /// Whether it tells something rather than asks for it: it has no verb known, but somebody is or does something.
+    pub fn is_remark(&self) -> bool {
+        const TELLS: [&str; 16] = [
+            "i",
+            "im",
+            "ive",
+            "we",
+            "were",
+            "it",
+            "is",
+            "are",
+            "was",
+            "everyone",
+            "everybody",
+            "nobody",
+            "cant",
+            "there",
+            "loves",
+            "has",
+        ];
+        self.verbs.is_empty() && self.says_any(&TELLS)
+    }
+
     /// Whether it asks for what it says rather than tells it: "the lamp should be off", "lamp off", but not
     /// "the lamp is off".
     pub fn wants(&self) -> bool {

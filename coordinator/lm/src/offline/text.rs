@@ -120,6 +120,17 @@ fn repair(word: &str, lexicon: &Lexicon, scene: &Scene) -> Option<String> {
     best.map(|(repaired, _)| repaired)
 }
 
+/// Leaves out the numbers of a list: "1. wash the fork 2. dry it".
+pub fn without_list_numbers(tokens: Vec<Token>) -> Vec<Token> {
+    let is_number = |at: usize| {
+        let digits = tokens[at].text.chars().all(|c| c.is_ascii_digit());
+        let full_stop = tokens.get(at + 1).is_some_and(|next| next.text == ".");
+        digits && full_stop && at + 2 < tokens.len()
+    };
+    let kept = (0..tokens.len()).filter(|&at| !is_number(at));
+    kept.map(|at| tokens[at].clone()).collect()
+}
+
 /// Splits what was run together with an article: "putthe", "inthe".
 pub fn split_articles(tokens: Vec<Token>, lexicon: &Lexicon, scene: &Scene) -> Vec<Token> {
     let mut found = Vec::with_capacity(tokens.len());

@@ -111,7 +111,7 @@ fn count(kind: &str, objects: &[ObjectView]) -> usize {
 }
 
 /// The facts of an entry, each with what tells its object from others of its type.
-fn facts(entry: &GoalEntry, objects: &[ObjectView], found: &mut Vec<(String, String)>) {
+pub fn facts(entry: &GoalEntry, objects: &[ObjectView], found: &mut Vec<(String, String)>) {
     let kind = kind_of(&entry.object, objects);
     let fresh = found.len();
     for number in 0..if entry.all { count(&kind, objects) } else { 1 } {
@@ -142,7 +142,7 @@ fn facts(entry: &GoalEntry, objects: &[ObjectView], found: &mut Vec<(String, Str
 }
 
 /// `Book@Box` twice, of different books -> `Book@Box #1`, `Book@Box #2`.
-fn numbered(mut facts: Vec<(String, String)>) -> Vec<String> {
+pub fn numbered(mut facts: Vec<(String, String)>) -> Vec<String> {
     facts.sort();
     facts.dedup();
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();

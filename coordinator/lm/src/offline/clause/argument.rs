@@ -263,7 +263,7 @@ impl<'a> Parser<'a> {
                 return;
             };
             let another_pair = relation != Relation::From && preposition(&self.rest()).is_some()
-                || matches!(self.peek(), Some("on" | "off"));
+                || matches!(self.peek(), Some("on" | "off" | "should" | "must" | "is" | "are" | "needs"));
             if another_pair {
                 self.position = start;
                 return;

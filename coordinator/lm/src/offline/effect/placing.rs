@@ -66,7 +66,7 @@ impl<'a> Interpreter<'_, 'a> {
                     self.put_in(entity, place);
                     places.push(place);
                 }
-                None if goes_on || clause.back => {}
+                None if goes_on || clause.back || clause.verb_text.ends_with(" down") => {}
                 None => {
                     let text = self.discourse.entities[entity].text.clone();
                     self.discourse.problem(format!("it is not said where \"{text}\" goes"), 0.3);
@@ -108,7 +108,7 @@ impl<'a> Interpreter<'_, 'a> {
     }
 
     /// The goal, the movable receptacle it is reached in, and the places that say where things were.
-    fn sort_places(&self, clause: &Clause<'a>) -> (Option<Place>, Option<Place>, Vec<Place>) {
+    pub(super) fn sort_places(&self, clause: &Clause<'a>) -> (Option<Place>, Option<Place>, Vec<Place>) {
         let scene = self.discourse.scene;
         let is_there = |place: &Place| match &place.phrase.head {
             Head::Noun(noun) => {
