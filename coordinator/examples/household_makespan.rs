@@ -3,13 +3,10 @@
 //!
 //! `cargo run --release -p lamma-coordinator --example household_makespan -- TASKS.jsonl [CONFLICTS]`
 
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use lamma_coordinator::bound::JointTask;
-use lamma_coordinator::{Member, Team};
-use lamma_pddl::Name;
 use lamma_planner::MakespanLimits;
 
 fn main() -> Result<(), String> {
@@ -30,16 +27,7 @@ fn main() -> Result<(), String> {
 
 fn one(task: &lamma_domains::tasks::Task, conflicts: u64) -> Result<String, String> {
     let (world, goal) = task.world(0).map_err(|e| e.to_string())?;
-    let members = world.members.iter();
-    let team = Team {
-        members: members
-            .map(|m| Member { name: Name::new(&m.name), domain: Arc::new(m.domain.clone()) })
-            .collect(),
-        domain: Arc::new(world.team_domain()),
-        objects: world.objects.clone(),
-        relaxations: Vec::new(),
-        skill_facts: Default::default(),
-    };
+    let team = lamma_coordinator::house::team(&world);
     let available: Vec<usize> = (0..team.members.len()).collect();
     let facts = world.facts().cloned().collect();
     let start = Instant::now();

@@ -127,8 +127,7 @@ impl Allocator<'_> {
             self.plan_as_team(index, &self.input.subgoals[index].goal, &start, true, None)?;
         }
         if self.plan_as_team(0, &everything, &start, true, None).is_err_and(|e| e.is_proof()) {
-            let why = "each sub-task is possible, but not all of them together".to_string();
-            return Err(NoAllocation::Infeasible(why));
+            return Err(NoAllocation::Infeasible(self.excluding(&start)));
         }
         let mut kept: Vec<Condition> = Vec::new();
         for index in 0..self.input.subgoals.len() {
@@ -141,6 +140,30 @@ impl Allocator<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Which sub-tasks, each possible by itself, exclude each other: a smallest set, by leaving out one after the
+    /// other.
+    fn excluding(&self, start: &WorldState) -> String {
+        let subgoals = &self.input.subgoals;
+        let mut rest: Vec<usize> = (0..subgoals.len()).filter(|&s| subgoals[s].lasting).collect();
+        let mut i = 0;
+        while i < rest.len() {
+            let one = rest.remove(i);
+            let goal = Condition::And(rest.iter().map(|&s| subgoals[s].goal.clone()).collect());
+            if !self.plan_as_team(0, &goal, start, true, None).is_err_and(|e| e.is_proof()) {
+                rest.insert(i, one);
+                i += 1;
+            }
+        }
+        let texts: Vec<String> = rest.iter().map(|&s| format!("\"{}\"", subgoals[s].text)).collect();
+        let together = Condition::And(rest.iter().map(|&s| subgoals[s].goal.clone()).collect());
+        let why = why_infeasible(self.input, &start.facts, &together, &self.limits(), self.cancel);
+        let why = why.map_or(String::new(), |why| format!(": {why}"));
+        format!(
+            "each sub-task is possible, but not all of them together: {} exclude each other{why}",
+            texts.join(" and ")
+        )
     }
 
     fn take_part(

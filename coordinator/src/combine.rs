@@ -145,7 +145,12 @@ fn touches(step: &TeamStep, atoms: &BTreeSet<GroundAtom>) -> bool {
     literal_effects(&step.action).any(|(_, effect)| atoms.contains(&effect.atom))
 }
 
-fn team_plan(team: &Team, order: &PartialOrder, merger: &Merger, packages: &[PackageSpec]) -> TeamPlan {
+pub(crate) fn team_plan(
+    team: &Team,
+    order: &PartialOrder,
+    merger: &Merger,
+    packages: &[PackageSpec],
+) -> TeamPlan {
     let gates = order.gates();
     let starts = order.earliest_starts();
     let mut steps: Vec<Vec<Step>> = vec![Vec::new(); team.members.len()];

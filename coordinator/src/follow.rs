@@ -12,6 +12,7 @@ use crate::machine::Coordinator;
 use crate::phase::{Following, Phase, Round};
 use crate::problem::member_problem;
 use crate::result::OutcomeKind;
+use crate::shorten::Shorten;
 
 /// Packages that may be planned again because they did not fit after the others.
 const MAX_CONFLICTS: u32 = 12;
@@ -129,9 +130,22 @@ impl Coordinator {
             merger: round.merger.clone(),
             packages: round.allocation.packages.clone(),
             goal,
+            shorten: self.shorten(&round),
         };
         let job = self.spawn(CoordinatorJob::Combine(Box::new(input)));
         self.enter(Phase::Combining(job, round));
+    }
+
+    /// Steps may be chosen anew only where the end is all that was asked for.
+    fn shorten(&self, round: &Round) -> Shorten {
+        let subgoals = self.understanding.as_ref().map_or(&[][..], |u| &u.subgoals);
+        let free = subgoals.iter().all(|s| s.lasting && s.after.is_empty());
+        Shorten {
+            available: self.roster.available(),
+            bound: round.allocation.lower_bound,
+            subgoals: free.then(|| subgoals.iter().map(|s| s.goal.clone()).collect()),
+            limits: self.config.makespan.clone(),
+        }
     }
 
     /// Everything that shall hold at the end.

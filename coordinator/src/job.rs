@@ -9,8 +9,9 @@ use lamma_planner::interpreter::Interpreter;
 
 use crate::allocate::allocate;
 use crate::allocation::{AllocateInput, Allocation, NoAllocation, PackageSpec};
-use crate::combine::{TeamPlan, combine};
+use crate::combine::combine;
 use crate::merge::Merger;
+use crate::shorten::{Combined, Shorten, shorten};
 use crate::team::Team;
 use crate::understand::Understood;
 
@@ -39,6 +40,8 @@ pub struct CombineInput {
     pub packages: Vec<PackageSpec>,
     /// What shall hold at the end.
     pub goal: Condition,
+    /// What may be done to make it shorter.
+    pub shorten: Shorten,
 }
 
 /// What comes back.
@@ -49,7 +52,7 @@ pub enum CoordinatorDone {
     /// Of [`CoordinatorJob::Allocate`].
     Allocated(Result<Allocation, NoAllocation>),
     /// Of [`CoordinatorJob::Combine`].
-    Combined(Result<TeamPlan, String>),
+    Combined(Result<Box<Combined>, String>),
 }
 
 impl CoordinatorJob {
@@ -70,9 +73,11 @@ impl CoordinatorJob {
 }
 
 impl CombineInput {
-    fn run(&self, cancel: &AtomicBool) -> Result<TeamPlan, String> {
+    fn run(&self, cancel: &AtomicBool) -> Result<Box<Combined>, String> {
         let interpreter =
             Interpreter::new(&self.team.domain, &self.team.objects).map_err(|e| e.to_string())?;
-        combine(&self.team, &interpreter, &self.merger, &self.packages, &self.goal, cancel)
+        let plan = combine(&self.team, &interpreter, &self.merger, &self.packages, &self.goal, cancel)?;
+        let (team, merger, how) = (&self.team, &self.merger, &self.shorten);
+        Ok(Box::new(shorten(team, &interpreter, merger, plan, &self.goal, how, cancel)))
     }
 }

@@ -7,6 +7,7 @@
 use std::collections::{BTreeSet, VecDeque};
 use std::sync::Arc;
 
+use lamma_planner::MakespanLimits;
 use lamma_planner::interpreter::Interpreter;
 use lamma_protocol::message::{Directive, Event, Message};
 use lamma_protocol::{AgentId, Epoch, Input, Machine, Output, Revision, Tick, Topic};
@@ -38,6 +39,8 @@ pub struct CoordinatorConfig {
     pub solve_only: bool,
     /// Bound of each of the coordinator's searches, in expanded states.
     pub expansions: u64,
+    /// What may be spent on a shorter plan and on the proof of how short it can be.
+    pub makespan: MakespanLimits,
     /// When to give up.
     pub time_limit_ms: u64,
     /// How long the simulator takes for a time step, in milliseconds: nobody is late before that.

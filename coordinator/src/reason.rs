@@ -3,12 +3,14 @@
 use std::collections::BTreeSet;
 use std::sync::atomic::AtomicBool;
 
+use lamma_pddl::Name;
 use lamma_pddl::ast::{Condition, GroundAtom};
 use lamma_planner::Limits;
 use lamma_planner::Outcome;
 
 use crate::allocation::AllocateInput;
 use crate::split::team_plan;
+use crate::team::Relaxation;
 
 /// What stands between the team and the goal: the skills nobody has and the obstacles the team knows of.
 /// Each is removed in thought; a smallest set (by leaving out one after the other) without which the goal
@@ -20,16 +22,17 @@ pub(crate) fn why_infeasible(
     limits: &Limits,
     cancel: &AtomicBool,
 ) -> Option<String> {
-    let skills = input
-        .team
-        .missing_skills(&input.available)
-        .into_iter()
-        .map(|(skill, facts)| (format!("nobody who is left has the skill {skill}"), facts));
-    let obstacles = input.team.relaxations.iter().map(|r| (r.reason.clone(), r.facts.clone()));
-    let mut removed: Vec<(String, Vec<GroundAtom>)> = skills.chain(obstacles).collect();
-    let reachable = |removed: &[(String, Vec<GroundAtom>)]| {
-        let extra: Vec<GroundAtom> = removed.iter().flat_map(|(_, facts)| facts.clone()).collect();
-        let outcome = team_plan(&input.team, &input.available, facts, &extra, goal, limits, cancel);
+    let skills = input.team.missing_skills(&input.available).into_iter().map(|(skill, facts)| Relaxation {
+        reason: format!("nobody who is left has the skill {skill}"),
+        facts,
+        kept: Vec::new(),
+    });
+    let mut removed: Vec<Relaxation> = skills.chain(input.team.relaxations.iter().cloned()).collect();
+    let reachable = |removed: &[Relaxation]| {
+        let extra: Vec<GroundAtom> = removed.iter().flat_map(|r| r.facts.clone()).collect();
+        let kept: Vec<Name> = removed.iter().flat_map(|r| r.kept.clone()).collect();
+        let team = input.team.keeping(&kept);
+        let outcome = team_plan(&team, &input.available, facts, &extra, goal, limits, cancel);
         matches!(outcome, Ok(Outcome::Found(_)))
     };
     if removed.is_empty() || !reachable(&removed) {
@@ -43,5 +46,5 @@ pub(crate) fn why_infeasible(
             i += 1;
         }
     }
-    Some(removed.into_iter().map(|(reason, _)| reason).collect::<Vec<_>>().join("; "))
+    Some(removed.into_iter().map(|r| r.reason).collect::<Vec<_>>().join("; "))
 }

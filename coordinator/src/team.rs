@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lamma_pddl::Name;
-use lamma_pddl::ast::{Atom, Condition, Domain, GroundAtom, Signature, Term, TypedName};
+use lamma_pddl::ast::{Atom, Condition, Domain, Effect, GroundAtom, Signature, Term, TypedName};
 
 /// A robot of the team.
 #[derive(Clone, Debug)]
@@ -29,6 +29,8 @@ pub struct Relaxation {
     pub reason: String,
     /// Static facts that would remove the obstacle.
     pub facts: Vec<GroundAtom>,
+    /// Predicates of which no action may make a fact false any more: what would be used up lasts.
+    pub kept: Vec<Name>,
 }
 
 /// The team and the world it acts in.
@@ -88,6 +90,15 @@ impl Team {
         (domain, facts)
     }
 
+    /// The same team where no action makes facts of these predicates false.
+    pub fn keeping(&self, kept: &[Name]) -> Team {
+        let mut domain = (*self.domain).clone();
+        if !kept.is_empty() {
+            domain.actions.iter_mut().for_each(|action| keep(&mut action.effect, kept));
+        }
+        Team { domain: Arc::new(domain), ..self.clone() }
+    }
+
     /// The skill facts that no available member has: what a stronger team would bring.
     pub fn missing_skills(&self, available: &[usize]) -> Vec<(Name, Vec<GroundAtom>)> {
         let has = |action: &Name| available.iter().any(|&m| self.members[m].can(action));
@@ -103,5 +114,16 @@ impl Team {
                 (a.name.clone(), own.chain(told).collect())
             })
             .collect()
+    }
+}
+
+fn keep(effect: &mut Effect, kept: &[Name]) {
+    match effect {
+        Effect::And(parts) => {
+            parts.iter_mut().for_each(|part| keep(part, kept));
+        }
+        Effect::Forall(_, inner) | Effect::When(_, inner) => keep(inner, kept),
+        Effect::Delete(atom) if kept.contains(&atom.predicate) => *effect = Effect::And(Vec::new()),
+        Effect::Add(_) | Effect::Delete(_) | Effect::Assign(..) => {}
     }
 }

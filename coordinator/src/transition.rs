@@ -10,6 +10,7 @@ use crate::machine::Coordinator;
 use crate::merge::Merger;
 use crate::phase::{Following, Phase, Round};
 use crate::result::{ActionResult, OutcomeKind};
+use crate::shorten::Combined;
 use crate::understand::Understood;
 
 /// Plans that may follow the first.
@@ -269,16 +270,22 @@ impl Coordinator {
         self.enter(Phase::Planning(Box::new(round)));
     }
 
-    pub(crate) fn combined(&mut self, plan: Result<TeamPlan, String>) {
-        let Phase::Combining(_, round) = self.take_phase() else { return };
-        let plan = match plan {
-            Ok(plan) => plan,
+    pub(crate) fn combined(&mut self, combined: Result<Box<Combined>, String>) {
+        let Phase::Combining(_, mut round) = self.take_phase() else { return };
+        let Combined { plan, end, packages, bound } = match combined {
+            Ok(combined) => *combined,
             Err(why) => {
                 return self.finish(OutcomeKind::Error, Some(format!("the combined plan fails: {why}")));
             }
         };
-        self.first_plan.get_or_insert((plan.makespan, plan.timeline.len()));
-        let bound = self.lower_bound.unwrap_or(0.0);
+        if self.first_plan.is_none() {
+            // Later plans start where the first has led: what is proved of them is not about the whole.
+            self.lower_bound = Some(bound);
+            self.first_plan = Some((plan.makespan, plan.timeline.len()));
+        }
+        if let Some(packages) = packages {
+            round.allocation.packages = packages;
+        }
         self.event(
             EventKind::Note,
             format!(
@@ -291,7 +298,7 @@ impl Coordinator {
         if self.config.solve_only {
             let everything: Vec<StepIndex> = plan.steps.iter().map(|s| StepIndex(s.len() as u32)).collect();
             self.record(&plan, &everything);
-            self.planned_state = Some(round.merger.state.facts);
+            self.planned_state = Some(end.facts);
             return self.finish(OutcomeKind::Success, None);
         }
         for agent in self.roster.alive().collect::<Vec<_>>() {

@@ -8,6 +8,7 @@ use lamma_coordinator::{
 };
 use lamma_pddl::ast::{Condition, Domain, Init, TypedName};
 use lamma_pddl::{Name, Source, parse_condition, parse_domain, parse_ground_atom};
+use lamma_planner::MakespanLimits;
 use lamma_planner::interpreter::{Interpreter, WorldState};
 use lamma_protocol::AgentId;
 use lamma_robot::{Robot, RobotConfig};
@@ -187,6 +188,7 @@ impl Scenario {
             reference: None,
             solve_only: false,
             expansions: 20_000,
+            makespan: MakespanLimits::default(),
             time_limit_ms: 90_000,
             step_ms: 0,
         })

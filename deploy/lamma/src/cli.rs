@@ -117,6 +117,10 @@ pub struct CommonArgs {
     /// Give up after this many seconds.
     #[arg(long, default_value_t = 120.0, value_parser = seconds)]
     pub time_limit: f64,
+    /// Spend up to so many seconds on a shorter plan and on the proof of how short it can be [default: a few
+    /// tenths of a second].
+    #[arg(long, value_parser = seconds)]
+    pub makespan_limit: Option<f64>,
     /// How long the simulator takes for each action, in milliseconds: to watch, or to interfere.
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(..=60_000))]
     pub step_ms: u64,

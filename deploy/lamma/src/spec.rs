@@ -39,6 +39,9 @@ pub struct RunSpec {
     pub solve_only: bool,
     /// The language model.
     pub lm: LmSpec,
+    /// What may be spent on a shorter plan and the proof of how short it can be, in milliseconds; a little if
+    /// nothing is said.
+    pub makespan_ms: Option<u64>,
     /// Give up after this many milliseconds.
     pub time_limit_ms: u64,
     /// How long a time step takes, in milliseconds.

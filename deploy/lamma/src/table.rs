@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use lamma_coordinator::result::OutcomeKind;
 use serde_json::{Value, json};
 
 use crate::commands::bench::Finished;
@@ -19,6 +20,10 @@ pub struct Row {
     gcr: f64,
     ru: Option<f64>,
     eff: Option<f64>,
+    /// Makespan / proved lower bound, over successes.
+    ratio: Option<f64>,
+    /// Share of the successes whose makespan is the proved lower bound.
+    proved: Option<f64>,
 }
 
 /// The rows: a category each, all together, and for imported suites those that were not set aside.
@@ -56,12 +61,19 @@ impl Row {
             gcr: metric(|t| t.result.metrics.gcr),
             ru: mean(tasks.iter().filter_map(|t| t.result.metrics.ru).collect()),
             eff: mean(tasks.iter().filter_map(|t| t.result.metrics.eff).collect()),
+            ratio: mean(tasks.iter().filter_map(|t| ratio(t)).collect()),
+            proved: mean(
+                tasks.iter().filter_map(|t| ratio(t)).map(|r| f64::from(u8::from(r <= 1.0))).collect(),
+            ),
         }
     }
 
     /// As the contract prints it.
     pub fn json(&self) -> Value {
-        json!({ "n": self.n, "sr": self.sr, "exe": self.exe, "gcr": self.gcr, "ru": self.ru, "eff": self.eff })
+        json!({
+            "n": self.n, "sr": self.sr, "exe": self.exe, "gcr": self.gcr, "ru": self.ru, "eff": self.eff,
+            "makespan_ratio": self.ratio, "proved": self.proved,
+        })
     }
 
     /// One line per task, for spreadsheets.
@@ -95,22 +107,33 @@ impl Row {
     }
 }
 
+/// Makespan / proved lower bound of a success; 1 where there was nothing to do.
+fn ratio(finished: &Finished) -> Option<f64> {
+    let plan = &finished.result.plan;
+    let success = finished.result.outcome == OutcomeKind::Success;
+    success
+        .then(|| if plan.makespan > 0.0 { plan.makespan / plan.makespan_lower_bound.max(1.0) } else { 1.0 })
+}
+
 /// The table for people.
 pub fn text(name: &str, rows: &[Row]) -> String {
     let width = rows.iter().map(|r| r.name.len()).max().unwrap_or(0).max(8);
-    let mut out = format!("\n{name}\n{:width$}    n    SR    RU   GCR   Eff   Exe\n", "category");
+    let mut out =
+        format!("\n{name}\n{:width$}    n    SR    RU   GCR   Eff   Exe  M/LB  proved\n", "category");
     let optional = |v: Option<f64>| v.map_or("   -".to_string(), |v| format!("{v:.2}"));
     for r in rows {
         let _ = writeln!(
             out,
-            "{:width$}  {:3}  {:.2}  {}  {:.2}  {}  {:.2}",
+            "{:width$}  {:3}  {:.2}  {}  {:.2}  {}  {:.2}  {}    {}",
             r.name,
             r.n,
             r.sr,
             optional(r.ru),
             r.gcr,
             optional(r.eff),
-            r.exe
+            r.exe,
+            optional(r.ratio),
+            optional(r.proved),
         );
     }
     out

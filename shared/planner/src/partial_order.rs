@@ -149,7 +149,17 @@ impl Explainer<'_> {
     /// The step that made the literal true for the last time before the consumer; none if it was so at
     /// the start.
     fn producer(&self, consumer: usize, literal: &Literal) -> Option<usize> {
-        (0..consumer).rev().find(|&i| !holds(&self.states[i], literal) && holds(&self.states[i + 1], literal))
+        (0..consumer).rev().find(|&i| {
+            holds(&self.states[i + 1], literal)
+                && (!holds(&self.states[i], literal) || self.makes_good(i, literal))
+        })
+    }
+
+    /// Whether the step undoes the literal and makes it true again under a condition, as who goes from the
+    /// table to the apple on the table is at the table still: elsewhere in the order it might not be.
+    fn makes_good(&self, step: usize, literal: &Literal) -> bool {
+        let action = &self.steps[step].action;
+        can_undo(action, literal) && undoing(action, literal).any(|c| c.witness(&self.states[step]).is_some())
     }
 
     /// What had to be true for the step to have that effect, beyond its precondition.

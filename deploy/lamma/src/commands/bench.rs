@@ -216,6 +216,7 @@ fn report(args: &BenchArgs, suite: &Suite, finished: &[Finished], seconds: f64) 
             if suite.has_the_papers_categories() {
                 say(published::text().trim_end());
             }
+            say("M/LB, proved: makespan / proved lower bound, and the share of successes where they meet");
             say(format_args!(
                 "{n} tasks in {seconds:.1} s; seed {}; goals judged on the simulator's state",
                 args.common.seed

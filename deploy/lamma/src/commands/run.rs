@@ -65,6 +65,7 @@ pub fn spec_from(common: &CommonArgs, task: Task) -> RunSpec {
             lexicon: common.lexicon.clone(),
         },
         // Bounded by the parser of the option.
+        makespan_ms: common.makespan_limit.map(|s| (s * 1e3) as u64),
         time_limit_ms: (common.time_limit * 1e3) as u64,
         step_ms: common.step_ms,
         events: Vec::new(),

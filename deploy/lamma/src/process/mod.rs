@@ -5,22 +5,20 @@
 
 pub mod child;
 
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use lamma_bus::driver::Worker;
 use lamma_coordinator::decompose::{decompose, given, score_goal};
-use lamma_coordinator::{
-    Coordinator, CoordinatorConfig, CoordinatorDone, CoordinatorJob, Member, Relaxation, Team, Understood,
-};
-use lamma_domains::robots::{SKILLS, actions_of};
+use lamma_coordinator::house::team;
+use lamma_coordinator::{Coordinator, CoordinatorConfig, CoordinatorDone, CoordinatorJob, Understood};
 use lamma_domains::world::WorldSetup;
 use lamma_lm::LanguageModel;
 use lamma_pddl::ast::{Domain, GroundAtom};
 use lamma_pddl::{Name, Source, check_domain, parse_domain};
+use lamma_planner::MakespanLimits;
 use lamma_protocol::AgentId;
 use lamma_robot::{Robot, RobotConfig, RobotDone, RobotJob};
 use lamma_simulator::{AgentSpec, Arbiter, WorldConfig};
@@ -115,6 +113,7 @@ pub fn coordinator_parts(
         reference: spec.reference,
         solve_only: spec.solve_only,
         expansions: EXPANSIONS,
+        makespan: makespan_limits(spec),
         time_limit_ms: spec.time_limit_ms,
         step_ms: spec.step_ms,
     })
@@ -131,6 +130,17 @@ pub fn coordinator_parts(
     Ok(Parts { machine, workers: vec![Box::new(work)] })
 }
 
+/// What may be spent on a shorter plan. Without a wish of the person's it is the same on every machine, unless one
+/// is so slow that the clock steps in.
+fn makespan_limits(spec: &RunSpec) -> MakespanLimits {
+    match spec.makespan_ms {
+        None => MakespanLimits { conflicts: 1_500, size: 1_500_000, time: Some(Duration::from_secs(1)) },
+        Some(ms) => {
+            MakespanLimits { conflicts: u64::MAX, size: 50_000_000, time: Some(Duration::from_millis(ms)) }
+        }
+    }
+}
+
 /// The language model of the run. Its key, if it needs one, comes from the environment alone.
 pub fn language_model(spec: &RunSpec) -> Result<Box<dyn LanguageModel>, Failure> {
     let options = lamma_lm::Options {
@@ -141,66 +151,4 @@ pub fn language_model(spec: &RunSpec) -> Result<Box<dyn LanguageModel>, Failure>
         ..lamma_lm::Options::default()
     };
     lamma_lm::from_spec(&spec.lm.spec, &options).map_err(Failure::bad_input)
-}
-
-/// The team as planning sees it.
-pub fn team(world: &WorldSetup) -> Team {
-    let members =
-        world.members.iter().map(|m| Member { name: Name::new(&m.name), domain: Arc::new(m.domain.clone()) });
-    Team {
-        members: members.collect(),
-        domain: Arc::new(world.team_domain()),
-        objects: world.objects.clone(),
-        relaxations: too_heavy(world),
-        skill_facts: skill_facts(world),
-    }
-}
-
-/// The world's own record of who has which skill, for every skill: `(has robot1 SliceObject)`.
-fn skill_facts(world: &WorldSetup) -> BTreeMap<Name, Vec<GroundAtom>> {
-    let mut facts: BTreeMap<Name, Vec<GroundAtom>> = BTreeMap::new();
-    for skill in SKILLS {
-        for action in actions_of([skill]) {
-            let of = |m: &lamma_domains::world::Member| GroundAtom::new("has", [m.name.as_str(), skill]);
-            facts.entry(Name::new(action)).or_default().extend(world.members.iter().map(of));
-        }
-    }
-    // The world says what a member can lift only of those who can carry at all.
-    for action in ["PickupObject", "PutObject"] {
-        facts.entry(Name::new(action)).or_default().extend(liftable(world));
-    }
-    facts
-}
-
-/// `(can-lift robot thing)` as the capacities allow, whatever the skills.
-fn liftable(world: &WorldSetup) -> Vec<GroundAtom> {
-    let can = |m: &lamma_domains::world::Member, t: &lamma_domains::world::Thing| {
-        t.can("pickupable") && t.mass_kg <= m.capacity_kg
-    };
-    let of = |m| {
-        let things = world.things.iter().filter(move |t| can(m, t));
-        things.map(move |t| GroundAtom::new("can-lift", [m.name.as_str(), t.name.as_str()]))
-    };
-    world.members.iter().flat_map(of).collect()
-}
-
-/// Things that nobody of the team can lift: obstacles with a name.
-fn too_heavy(world: &WorldSetup) -> Vec<Relaxation> {
-    let strongest = world.members.iter().map(|m| m.capacity_kg).fold(0.0, f64::max);
-    world
-        .things
-        .iter()
-        .filter(|t| t.can("pickupable") && t.mass_kg > strongest)
-        .map(|t| Relaxation {
-            reason: format!(
-                "{} weighs {} kg and the strongest of the team lifts {strongest} kg",
-                t.name, t.mass_kg
-            ),
-            facts: world
-                .members
-                .iter()
-                .map(|m| GroundAtom::new("can-lift", [m.name.as_str(), t.name.as_str()]))
-                .collect(),
-        })
-        .collect()
 }

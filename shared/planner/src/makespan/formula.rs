@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 use super::layers::Layer;
 use super::model::{Lit, Maker, Model};
-use super::sat::{Bool, Clauses};
+use super::sat::{Bool, Clauses, Fuel};
 
 /// The formula, and where to read the schedule.
 pub(super) struct Formula {
@@ -29,8 +29,8 @@ struct Variables {
     events: Vec<Bool>,
 }
 
-/// The formula for schedules with these layers; `None` if it has more than `size` literals.
-pub(super) fn formula(model: &Model, layers: &[Layer], size: u64) -> Option<Formula> {
+/// The formula for schedules with these layers; `None` if it gets too large or takes too long.
+pub(super) fn formula(model: &Model, layers: &[Layer], fuel: &Fuel<'_>) -> Option<Formula> {
     let mut clauses = Clauses::new();
     let variables: Vec<Variables> = layers
         .iter()
@@ -58,7 +58,7 @@ pub(super) fn formula(model: &Model, layers: &[Layer], size: u64) -> Option<Form
         builder.one_action_each();
         builder.requirements();
         builder.frame(&layers[step + 1], &variables[step + 1]);
-        if clauses.size() > size {
+        if clauses.size() > fuel.size || fuel.stopped() {
             return None;
         }
     }

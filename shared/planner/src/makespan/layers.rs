@@ -4,6 +4,7 @@
 //! graph analysis", AIJ 90, 1997), without mutexes. Backwards: what the goal may still need.
 
 use super::model::{Lit, Maker, Model};
+use super::relevance::Relevance;
 use crate::csr::Csr;
 
 /// Never reached.
@@ -126,7 +127,7 @@ impl Reach {
     }
 
     /// The layers of a schedule of `steps` steps: what its goal may need and its start may give.
-    pub fn layers(&self, model: &Model, steps: u32) -> Vec<Layer> {
+    pub fn layers(&self, model: &Model, relevance: &Relevance, steps: u32) -> Vec<Layer> {
         let mut layers = Vec::with_capacity(steps as usize + 1);
         let mut needed = Needed::new(model.literals_count());
         model.goal.iter().for_each(|&lit| needed.add(lit));
@@ -134,7 +135,7 @@ impl Reach {
         layers.push(Layer { lits: needed.take(), operators: Vec::new(), events: Vec::new() });
         for step in (0..steps).rev() {
             let after: &Layer = &layers[layers.len() - 1];
-            let (operators, events) = self.step(model, &after.lits, step);
+            let (operators, events) = self.step(model, relevance, &after.lits, step);
             let lasting = after.lits.iter().filter(|l| !model.is_derived(**l));
             lasting.filter(|l| self.lits[l.index()] <= step).for_each(|&lit| needed.add(lit));
             for &operator in &operators {
@@ -154,10 +155,11 @@ impl Reach {
     }
 
     /// What may make these literals true in a step.
-    fn step(&self, model: &Model, lits: &[Lit], step: u32) -> (Vec<u32>, Vec<u32>) {
+    fn step(&self, model: &Model, relevance: &Relevance, lits: &[Lit], step: u32) -> (Vec<u32>, Vec<u32>) {
         let (mut operators, mut events) = (Vec::new(), Vec::new());
         for lit in lits {
-            for maker in &model.makers[lit.index()] {
+            let makers = model.makers[lit.index()].iter();
+            for maker in makers.filter(|&&m| relevance.operators[model.operator_of(m) as usize]) {
                 match *maker {
                     Maker::Operator(o) if self.operators[o as usize] <= step => operators.push(o),
                     Maker::Event(e) if self.events[e as usize] <= step => {

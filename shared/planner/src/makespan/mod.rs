@@ -9,6 +9,7 @@
 mod formula;
 mod layers;
 mod model;
+mod relevance;
 mod sat;
 
 use std::sync::atomic::AtomicBool;
@@ -18,6 +19,7 @@ use crate::search::eliminate;
 use crate::task::{OperatorId, Task};
 use layers::{NEVER, Reach};
 use model::Model;
+use relevance::Relevance;
 use sat::{Found, Fuel, is_true};
 
 /// How much may be spent. The first two are the same on every machine.
@@ -71,6 +73,7 @@ pub struct Scheduler<'a> {
     task: &'a Task,
     model: Model,
     reach: Reach,
+    relevance: Relevance,
 }
 
 /// What there is to say about schedules of some length.
@@ -89,7 +92,11 @@ impl<'a> Scheduler<'a> {
         }
         let model = Model::new(task, agent_of);
         let reach = Reach::new(&model);
-        (reach.goal(&model) != NEVER).then_some(Scheduler { task, model, reach })
+        if reach.goal(&model) == NEVER {
+            return None;
+        }
+        let relevance = Relevance::new(&model);
+        Some(Scheduler { task, model, reach, relevance })
     }
 
     /// The depth of the joint relaxed planning graph: no schedule is shorter.
@@ -142,8 +149,11 @@ impl<'a> Scheduler<'a> {
         if self.reach.goal(&self.model) > steps {
             return Answer::None;
         }
-        let layers = self.reach.layers(&self.model, steps);
-        let Some(formula) = formula::formula(&self.model, &layers, fuel.size) else { return Answer::Unknown };
+        if fuel.stopped() {
+            return Answer::Unknown;
+        }
+        let layers = self.reach.layers(&self.model, &self.relevance, steps);
+        let Some(formula) = formula::formula(&self.model, &layers, fuel) else { return Answer::Unknown };
         match formula.clauses.solve(fuel) {
             (Found::Contradiction, _) => Answer::None,
             (Found::Stopped, _) => Answer::Unknown,
@@ -173,7 +183,12 @@ impl<'a> Scheduler<'a> {
         if !self.task.is_goal(&state) {
             return Answer::Unknown;
         }
-        let mut kept = eliminate(self.task, plan).into_iter().peekable();
+        let mut once: Vec<u32> = plan.iter().map(|o| o.0).collect();
+        once.sort_unstable();
+        once.dedup();
+        // Which of two equal operators is idle cannot be told from what is kept.
+        let kept = if once.len() == plan.len() { eliminate(self.task, plan) } else { plan };
+        let mut kept = kept.into_iter().peekable();
         let mut steps: Vec<Vec<OperatorId>> = steps
             .into_iter()
             .map(|step| step.into_iter().filter(|o| kept.next_if_eq(o).is_some()).collect())

@@ -59,8 +59,8 @@ pub(super) struct Model {
     pub initially: Vec<bool>,
     /// The literals of each variable with more than two values, at most one of which holds.
     pub groups: Vec<Vec<Lit>>,
-    /// Which fact each literal is about.
     facts: usize,
+    variable_of: Vec<u32>,
     /// Facts that need no support, because they are not tracked: that a derived fact does not hold, and
     /// comparisons of numbers.
     free: Vec<bool>,
@@ -82,6 +82,7 @@ impl Model {
             initially: vec![false; 2 * facts],
             groups: Vec::new(),
             facts,
+            variable_of: task.facts.iter().map(|fact| fact.variable).collect(),
             free: vec![false; facts],
         };
         for variable in &task.variables[task.primary_variables..] {
@@ -125,6 +126,20 @@ impl Model {
     /// Whether axioms define the literal.
     pub fn is_derived(&self, lit: Lit) -> bool {
         self.derivations.contains_key(&lit.0)
+    }
+
+    /// The operator that a maker is or belongs to.
+    pub fn operator_of(&self, maker: Maker) -> u32 {
+        match maker {
+            Maker::Operator(operator) => operator,
+            Maker::Event(event) => self.events[event as usize].operator,
+        }
+    }
+
+    /// Whether these are different values of one variable.
+    pub fn excludes(&self, a: Lit, b: Lit) -> bool {
+        let variable = |lit: Lit| self.variable_of.get(lit.index());
+        a != b && variable(a).is_some() && variable(a) == variable(b)
     }
 
     /// The facts as conditions; what needs no support is left out.

@@ -39,6 +39,9 @@ impl Fuel<'_> {
 /// Decisions and conflicts between two looks at the clock.
 const LOOK: u32 = 256;
 
+/// Clauses loaded between two looks at the clock.
+const LOAD: usize = 1 << 16;
+
 struct Watch<'a> {
     conflicts: u64,
     fuel: &'a Fuel<'a>,
@@ -128,7 +131,10 @@ impl Clauses {
         let mut start = 0;
         let mut clause = Vec::new();
         let mut possible = true;
-        for &end in &self.ends {
+        for (count, &end) in self.ends.iter().enumerate() {
+            if count % LOAD == LOAD - 1 && fuel.stopped() {
+                return (Found::Stopped, Vec::new());
+            }
             clause.clear();
             clause.extend_from_slice(&self.lits[start..end]);
             start = end;

@@ -1,0 +1,201 @@
+//! The shortest schedule against brute force.
+//!
+//! What counts is what the partial order says: all valid linear plans of a few actions are deordered, and the
+//! least makespan among them is one that no bound may exceed. What the scheduler finds is deordered, too, and
+//! must be as short as it says. `LAMMA_CASES=1000 cargo test -p lamma-planner --test makespan` for more tasks.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on says so by panicking")]
+
+use std::sync::atomic::AtomicBool;
+
+use lamma_pddl::ast::{Condition, GroundAtom, Init, Problem, TypedName};
+use lamma_pddl::{Name, Source, parse_condition, parse_domain};
+use lamma_planner::partial_order::{TeamStep, deorder};
+use lamma_planner::{
+    GroundAct, GroundLimits, Interpreter, MakespanLimits, OperatorId, Scheduler, WorldState, ground,
+};
+use proptest::prelude::*;
+
+const DOMAIN: &str = "(define (domain flat)
+  (:requirements :typing :negative-preconditions :conditional-effects :disjunctive-preconditions)
+  (:types robot thing place)
+  (:predicates (at ?r - robot ?p - place) (in ?x - thing ?p - place) (holding ?r - robot ?x - thing)
+    (free ?r - robot) (open ?p - place) (lit ?p - place) (seen ?x - thing) (road ?p ?q - place) (powered)
+    (can-open ?r - robot) (near ?r - robot ?x - thing))
+  (:action go :parameters (?r - robot ?p - place) :precondition ()
+    :effect (and (forall (?q - place) (not (at ?r ?q))) (at ?r ?p)
+      (forall (?y - thing) (not (near ?r ?y)))
+      (forall (?y - thing) (when (in ?y ?p) (near ?r ?y)))))
+  (:action go-to-thing :parameters (?r - robot ?x - thing) :precondition ()
+    :effect (and (forall (?q - place) (not (at ?r ?q)))
+      (forall (?y - thing) (not (near ?r ?y))) (near ?r ?x)
+      (forall (?p - place) (when (in ?x ?p) (at ?r ?p)))))
+  (:action open :parameters (?r - robot ?p - place)
+    :precondition (and (can-open ?r) (at ?r ?p) (not (open ?p))) :effect (open ?p))
+  (:action close :parameters (?r - robot ?p - place)
+    :precondition (and (at ?r ?p) (open ?p)) :effect (not (open ?p)))
+  (:action pick :parameters (?r - robot ?x - thing ?p - place)
+    :precondition (and (near ?r ?x) (at ?r ?p) (in ?x ?p) (free ?r) (open ?p))
+    :effect (and (holding ?r ?x) (not (free ?r)) (not (in ?x ?p)) (not (seen ?x))
+      (forall (?a - robot) (not (near ?a ?x)))))
+  (:action put :parameters (?r - robot ?x - thing ?p - place)
+    :precondition (and (at ?r ?p) (holding ?r ?x) (open ?p))
+    :effect (and (in ?x ?p) (free ?r) (not (holding ?r ?x)) (near ?r ?x) (when (lit ?p) (seen ?x))))
+  (:action power :parameters (?r - robot) :precondition ()
+    :effect (and (when (powered) (not (powered))) (when (not (powered)) (powered))))
+  (:action light :parameters (?r - robot ?p - place)
+    :precondition (and (at ?r ?p) (or (powered) (open ?p)))
+    :effect (and (lit ?p) (forall (?x - thing) (when (in ?x ?p) (seen ?x))))))";
+
+const ROBOTS: [&str; 2] = ["r1", "r2"];
+const THINGS: [&str; 2] = ["x", "y"];
+const PLACES: [&str; 2] = ["a", "b"];
+
+struct World {
+    problem: Problem,
+    interpreter: Interpreter,
+    initial: WorldState,
+    acts: Vec<(usize, GroundAct)>,
+}
+
+const GOALS: [&str; 14] = [
+    "(in x b)",
+    "(in y a)",
+    "(lit a)",
+    "(lit b)",
+    "(seen x)",
+    "(seen y)",
+    "(open b)",
+    "(not (open a))",
+    "(powered)",
+    "(holding r1 x)",
+    "(holding r2 y)",
+    "(at r2 a)",
+    "(near r1 y)",
+    "(or (seen x) (in x a))",
+];
+
+fn typed(names: &[&str], of: &str) -> Vec<TypedName> {
+    names.iter().map(|n| TypedName::new(*n, of)).collect()
+}
+
+/// A start drawn by `bits`.
+fn world(bits: u32, goal: Condition) -> World {
+    let domain = parse_domain(&Source::new("flat.pddl", DOMAIN)).unwrap().value;
+    let objects = [typed(&ROBOTS, "robot"), typed(&THINGS, "thing"), typed(&PLACES, "place")].concat();
+    let interpreter = Interpreter::new(&domain, &objects).unwrap();
+    let bit = |at: u32| bits >> at & 1 == 1;
+    let place = |at: u32| PLACES[usize::from(bit(at))];
+    let mut facts = vec![
+        GroundAtom::new("in", ["x", place(0)]),
+        GroundAtom::new("in", ["y", place(1)]),
+        GroundAtom::new("at", ["r1", place(2)]),
+        GroundAtom::new("at", ["r2", place(3)]),
+        GroundAtom::new("free", ["r1"]),
+        GroundAtom::new("free", ["r2"]),
+    ];
+    let maybe = [
+        (4, GroundAtom::new("open", ["a"])),
+        (5, GroundAtom::new("open", ["b"])),
+        (6, GroundAtom::new("powered", [""; 0])),
+        (7, GroundAtom::new("can-open", ["r1"])),
+        (8, GroundAtom::new("can-open", ["r2"])),
+        (9, GroundAtom::new("lit", ["a"])),
+    ];
+    facts.extend(maybe.into_iter().filter(|(at, _)| bit(*at)).map(|(_, fact)| fact));
+    let init: Vec<Init> = facts.into_iter().map(Init::Fact).collect();
+    let initial = interpreter.initial(&init).unwrap();
+    let mut acts = Vec::new();
+    for (agent, r) in ROBOTS.iter().enumerate() {
+        acts.push((agent, GroundAct::new("power", [*r])));
+        acts.extend(THINGS.map(|x| (agent, GroundAct::new("go-to-thing", [*r, x]))));
+        for p in PLACES {
+            acts.extend(["go", "open", "close", "light"].map(|a| (agent, GroundAct::new(a, [*r, p]))));
+            acts.extend(THINGS.map(|x| (agent, GroundAct::new("pick", [*r, x, p]))));
+            acts.extend(THINGS.map(|x| (agent, GroundAct::new("put", [*r, x, p]))));
+        }
+    }
+    let problem =
+        Problem { name: Name::new("p"), domain: Name::new("flat"), objects, init, goal, metric: None };
+    World { problem, interpreter, initial, acts }
+}
+
+/// The least makespan over the deordered forms of all linear plans of at most `length` actions; `None` if there
+/// is none. Nothing is merged or pruned, so keep `length` small.
+fn brute_force(world: &World, goal: &Condition, length: usize) -> Option<f64> {
+    let ground = world.interpreter.ground_condition(goal).unwrap();
+    let actions: Vec<TeamStep> = world
+        .acts
+        .iter()
+        .map(|(agent, act)| TeamStep { agent: *agent, action: world.interpreter.instantiate(act).unwrap() })
+        .collect();
+    let mut best: Option<f64> = None;
+    let mut open: Vec<(Vec<usize>, WorldState)> = vec![(Vec::new(), world.initial.clone())];
+    while let Some((plan, state)) = open.pop() {
+        if world.interpreter.holds(&state, &ground) {
+            let steps = plan.iter().map(|&i| actions[i].clone()).collect();
+            let order = deorder(&world.interpreter, &world.initial, steps, &ground, &[]).unwrap();
+            best = Some(best.map_or(order.makespan(), |b| b.min(order.makespan())));
+            continue;
+        }
+        if plan.len() == length {
+            continue;
+        }
+        for (i, step) in actions.iter().enumerate() {
+            let mut next = state.clone();
+            if world.interpreter.apply(&mut next, &step.action).is_ok() && next != state {
+                open.push(([plan.as_slice(), &[i]].concat(), next));
+            }
+        }
+    }
+    best
+}
+
+fn agents(task: &lamma_planner::Task) -> Vec<u32> {
+    let operators = (0..task.operators.len() as u32).map(OperatorId);
+    operators.map(|o| u32::from(task.act(o).args[0] == "r2")).collect()
+}
+
+fn cases() -> u32 {
+    std::env::var("LAMMA_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(40)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(), ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_shortest_schedule_is_what_brute_force_finds(
+        bits in any::<u32>(),
+        wanted in proptest::collection::btree_set(0usize..GOALS.len(), 1..4),
+    ) {
+        const LENGTH: usize = 4;
+        let goal = Condition::And(wanted.iter().map(|&g| parse_condition(GOALS[g]).unwrap()).collect());
+        let world = world(bits, goal.clone());
+        let domain = parse_domain(&Source::new("flat.pddl", DOMAIN)).unwrap().value;
+        let task = ground(&domain, &world.problem, &GroundLimits::default()).unwrap();
+        let expected = brute_force(&world, &goal, LENGTH);
+        let of = agents(&task);
+        let limits = MakespanLimits::default();
+        let Some(scheduler) = Scheduler::new(&task, &of) else {
+            prop_assert_eq!(expected, None, "a plan where the scheduler sees none");
+            return Ok(());
+        };
+        let found = scheduler.shortest(0, Some(12), &limits, &AtomicBool::new(false));
+        let bound = found.lower_bound.unwrap();
+        if let Some(expected) = expected {
+            prop_assert!(f64::from(bound) <= expected, "bound {} above a plan of {}", bound, expected);
+        }
+        if let Some(schedule) = found.schedule {
+            prop_assert_eq!(schedule.makespan(), bound, "the first schedule on the way up meets the bound");
+            let mut steps = Vec::new();
+            for operator in schedule.operators() {
+                let action = world.interpreter.instantiate(&task.act(operator)).unwrap();
+                steps.push(TeamStep { agent: of[operator.index()] as usize, action });
+            }
+            let ground = world.interpreter.ground_condition(&goal).unwrap();
+            let order = deorder(&world.interpreter, &world.initial, steps, &ground, &[])
+                .map_err(|(i, v)| TestCaseError::fail(format!("step {i}: {v}")))?;
+            prop_assert!(order.makespan() <= f64::from(bound), "deordered {} of {}", order.makespan(), bound);
+        }
+    }
+}
