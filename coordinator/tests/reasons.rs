@@ -28,7 +28,7 @@ fn reason(task: &tasks::Task) -> Result<String, String> {
         final_goal: understanding.final_goal(),
         subgoals: understanding.subgoals,
         excluded: Default::default(),
-        expansions: 200_000,
+        expansions: 2_000,
     };
     loop {
         let why = match allocate(&input, &AtomicBool::new(false)) {
@@ -52,6 +52,7 @@ fn the_reason_names_what_stands_in_the_way() {
         let task: Result<tasks::Task, _> = serde_json::from_value(row["task"].clone());
         let found = task.map_err(|e| e.to_string()).and_then(|task| reason(&task));
         let right = found.as_ref().is_ok_and(|why| expected.iter().all(|e| why.contains(e)));
+        eprintln!("{} / {}: {found:?}", row["kind"], row["task"]["id"]);
         if !right {
             wrong.push(format!("{} / {}: {found:?} lacks {expected:?}", row["kind"], row["task"]["id"]));
         }

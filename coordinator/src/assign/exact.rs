@@ -68,7 +68,8 @@ pub(super) fn search(work: &[Work], start: Vec<usize>, bound: u64, nodes: u64) -
         nodes,
         ties: false,
     };
-    let proved = search.score.0 <= bound || search.descend(0, 0, 0) || search.score.0 <= bound;
+    let complete = search.score.0 <= bound || search.descend(0, 0, 0);
+    let proved = complete || search.score.0 <= bound;
     if proved {
         search.bound = search.score.0;
     }

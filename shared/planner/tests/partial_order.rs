@@ -6,7 +6,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on says so by panicking")]
 
-use lamma_pddl::ast::{Condition, Init, TypedName};
+use std::collections::BTreeSet;
+
+use lamma_pddl::ast::{Condition, GroundAtom, Init, TypedName};
 use lamma_pddl::{Source, parse_condition, parse_domain, parse_ground_atom};
 use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder};
 use lamma_planner::{GroundAct, GroundCondition, Interpreter, WorldState};
@@ -19,6 +21,8 @@ const DOMAIN: &str = "(define (domain flat)
     (free ?r - robot) (open ?p - place) (lit ?p - place) (seen ?x - thing) (powered))
   (:action go :parameters (?r - robot ?p - place) :precondition ()
     :effect (and (forall (?q - place) (not (at ?r ?q))) (at ?r ?p)))
+  (:action visit :parameters (?r - robot ?x - thing) :precondition ()
+    :effect (and (forall (?q - place) (not (at ?r ?q))) (forall (?q - place) (when (in ?x ?q) (at ?r ?q)))))
   (:action open :parameters (?r - robot ?p - place)
     :precondition (and (at ?r ?p) (not (open ?p))) :effect (open ?p))
   (:action close :parameters (?r - robot ?p - place)
@@ -63,6 +67,7 @@ fn world() -> World {
     let mut acts = Vec::new();
     for (agent, r) in robots.iter().enumerate() {
         acts.push((agent, GroundAct::new("power", [*r])));
+        acts.extend(things.map(|x| (agent, GroundAct::new("visit", [*r, x]))));
         for p in places {
             for action in ["go", "open", "close", "light"] {
                 acts.push((agent, GroundAct::new(action, [*r, p])));
@@ -144,6 +149,67 @@ proptest! {
             let state = carry_out(&world, &order, draws).map_err(TestCaseError::fail)?;
             prop_assert!(world.interpreter.holds(&state, &goal), "{goal} does not hold after another order");
         }
+    }
+}
+
+/// Everything that can happen when each agent does its steps in order, each as soon or as late as its gates
+/// allow: by how far everybody is, all states that the world can be in.
+fn all_interleavings(world: &World, order: &PartialOrder, goal: &GroundCondition) -> Result<usize, String> {
+    let gates = order.gates();
+    let mut own: Vec<Vec<usize>> = vec![Vec::new(); 3];
+    for (i, step) in order.steps.iter().enumerate() {
+        own[step.agent].push(i);
+    }
+    let mut seen: BTreeSet<(Vec<u32>, BTreeSet<GroundAtom>)> = BTreeSet::new();
+    let mut open = vec![(vec![0u32; 3], world.initial.clone())];
+    while let Some((done, state)) = open.pop() {
+        if !seen.insert((done.clone(), state.facts.clone())) {
+            continue;
+        }
+        let mut stuck = true;
+        for agent in 0..3 {
+            let Some(&next) = own[agent].get(done[agent] as usize) else { continue };
+            if gates[next].iter().all(|&(other, count)| done[other] >= count) {
+                stuck = false;
+                let (mut done, mut after) = (done.clone(), state.clone());
+                let action = &order.steps[next].action;
+                world
+                    .interpreter
+                    .apply(&mut after, action)
+                    .map_err(|v| format!("{} after {done:?}: {v}", action.act))?;
+                done[agent] += 1;
+                open.push((done, after));
+            }
+        }
+        let finished = (0..3).all(|a| done[a] as usize == own[a].len());
+        if stuck && !finished {
+            return Err(format!("everybody waits after {done:?}"));
+        }
+        if finished && !world.interpreter.holds(&state, goal) {
+            return Err(format!("{goal} does not hold at the end of some interleaving"));
+        }
+    }
+    Ok(seen.len())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_interleaving_that_the_gates_allow_reaches_the_goal(
+        draws in proptest::collection::vec(any::<usize>(), 20..400),
+        wanted in proptest::collection::vec(any::<usize>(), 1..4),
+    ) {
+        let world = world();
+        let steps: Vec<TeamStep> = walk(&world, &draws).into_iter().take(10).collect();
+        let mut reached = world.initial.clone();
+        for step in &steps {
+            world.interpreter.apply(&mut reached, &step.action).unwrap();
+        }
+        let goal = goal(&world, &reached, &wanted);
+        let order = deorder(&world.interpreter, &world.initial, steps, &goal, &[])
+            .map_err(|(i, v)| TestCaseError::fail(format!("step {i}: {v}")))?;
+        all_interleavings(&world, &order, &goal).map_err(TestCaseError::fail)?;
     }
 }
 

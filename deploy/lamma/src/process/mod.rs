@@ -16,7 +16,7 @@ use lamma_coordinator::house::team;
 use lamma_coordinator::{Coordinator, CoordinatorConfig, CoordinatorDone, CoordinatorJob, Understood};
 use lamma_domains::world::WorldSetup;
 use lamma_lm::LanguageModel;
-use lamma_pddl::ast::{Domain, GroundAtom};
+use lamma_pddl::ast::Domain;
 use lamma_pddl::{Name, Source, check_domain, parse_domain};
 use lamma_planner::MakespanLimits;
 use lamma_protocol::AgentId;
