@@ -130,11 +130,11 @@ pub fn coordinator_parts(
     Ok(Parts { machine, workers: vec![Box::new(work)] })
 }
 
-/// What may be spent on a shorter plan. Without a wish of the person's it is the same on every machine, unless one
-/// is so slow that the clock steps in.
+/// What may be spent on a shorter plan. Without a wish of the person's no clock is asked, so that the same input
+/// gives the same plan on every machine.
 fn makespan_limits(spec: &RunSpec) -> MakespanLimits {
     match spec.makespan_ms {
-        None => MakespanLimits { conflicts: 1_500, size: 1_500_000, time: Some(Duration::from_secs(1)) },
+        None => MakespanLimits { conflicts: 1_000, size: 1_000_000, time: None },
         Some(ms) => {
             MakespanLimits { conflicts: u64::MAX, size: 50_000_000, time: Some(Duration::from_millis(ms)) }
         }
