@@ -13,7 +13,6 @@ use lamma_planner::{MakespanLimits, Outcome, SearchOptions};
 
 use crate::error::Failure;
 use crate::out::say;
-use crate::process;
 
 /// Conflicts of the solver for one task.
 const CONFLICTS: u64 = 400_000;
@@ -56,7 +55,7 @@ pub fn write(file: &Path, tasks: &[Task]) -> Result<u8, Failure> {
 /// The shortest schedule found for the task's goal, and the bound that was proved.
 fn reference(task: &Task) -> Result<Reference, String> {
     let (world, goal) = task.world(0).map_err(|e| e.to_string())?;
-    let team = process::team(&world);
+    let team = lamma_coordinator::house::team(&world);
     let available: Vec<usize> = (0..team.members.len()).collect();
     let facts = world.facts().cloned().collect();
     let joint = JointTask::new(&team, &available, &facts, &goal.condition())?;
