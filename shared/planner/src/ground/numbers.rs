@@ -100,9 +100,12 @@ impl Numbers {
         id
     }
 
-    /// What to say of numbers that are asked for and never get a value.
+    /// What to say of numbers that are asked for, that an action would change, and that never get a value.
     pub fn warning(&self) -> Option<String> {
-        let mut missing: Vec<bool> = self.initial.iter().map(|value| value.is_nan()).collect();
+        let mut missing = vec![false; self.initial.len()];
+        for effect in self.effects.iter().filter(|effect| effect.op != AssignOp::Assign) {
+            missing[effect.target as usize] = self.initial[effect.target as usize].is_nan();
+        }
         for effect in self.effects.iter().filter(|effect| effect.op == AssignOp::Assign) {
             missing[effect.target as usize] = false;
         }
