@@ -161,16 +161,17 @@ pub struct PlanArgs {
     pub domain: PathBuf,
     /// The problem file.
     pub problem: PathBuf,
-    /// The search: auto, or a name the planner lists when it does not know one.
+    /// The search: auto, anytime (better and better plans until the limit or Ctrl-C), or a name the planner
+    /// lists when it does not know one.
     #[arg(long, default_value = "auto")]
     pub search: String,
     /// Give up after this many seconds.
     #[arg(long, value_parser = seconds)]
     pub time_limit: Option<f64>,
     /// Give up above this much memory, in MiB.
-    #[arg(long)]
-    pub memory_limit: Option<usize>,
-    /// Write the plan to this file too.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
+    pub memory_limit: Option<u32>,
+    /// Write the plan to this file too; with `--search anytime` each better one when it is found.
     #[arg(long)]
     pub plan_file: Option<PathBuf>,
     /// Print the grounded task instead of planning.
@@ -190,6 +191,9 @@ pub struct ValidateArgs {
     pub problem: PathBuf,
     /// The plan file.
     pub plan: PathBuf,
+    /// How to print the result.
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: Format,
 }
 
 /// See [`Command::Bench`].

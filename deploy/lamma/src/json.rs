@@ -4,6 +4,7 @@ use lamma_coordinator::result::{OutcomeKind, RunResult};
 use serde_json::{Value, json};
 
 use crate::cli::{BusArg, CommonArgs};
+use crate::error::Failure;
 use crate::launch::Launched;
 
 /// One run, as the contract lays it out.
@@ -21,6 +22,15 @@ pub fn run(launched: &Launched, common: &CommonArgs) -> Value {
         object.insert("lm".into(), json!(common.lm));
         object.insert("processes".into(), json!(launched.processes));
         object.insert("elapsed_ms".into(), json!(launched.elapsed.as_secs_f64() * 1e3));
+    }
+    value
+}
+
+/// A failure, with what is known of its places.
+pub fn failure(failure: &Failure) -> Value {
+    let mut value = error(&failure.text);
+    if let (Value::Object(object), false) = (&mut value, failure.diagnostics.is_empty()) {
+        object.insert("diagnostics".into(), json!(failure.diagnostics));
     }
     value
 }

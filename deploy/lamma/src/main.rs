@@ -6,6 +6,7 @@ mod compat;
 mod error;
 mod events;
 mod exit;
+mod guard;
 mod host;
 mod json;
 mod launch;
@@ -69,6 +70,7 @@ fn format_of(command: &Command) -> Format {
         Command::Run(args) | Command::Solve(args) => args.common.format,
         Command::Bench(args) => args.common.format,
         Command::Plan(args) => args.format,
+        Command::Validate(args) => args.format,
         _ => Format::Text,
     }
 }
@@ -77,7 +79,7 @@ fn format_of(command: &Command) -> Format {
 fn report(failure: &Failure, format: Format) -> u8 {
     eprintln!("error: {failure}");
     if format == Format::Json {
-        out::say(json::error(&failure.text));
+        out::say(json::failure(failure));
     }
     failure.code
 }

@@ -10,6 +10,7 @@ mod axioms;
 mod condition;
 mod error;
 mod ground;
+mod query;
 mod scope;
 mod state;
 
@@ -52,15 +53,16 @@ impl Interpreter {
             list.iter().map(|s| (s.name.clone(), s.params.len())).collect::<BTreeMap<_, _>>()
         };
         let declared: Vec<&TypedName> = domain.constants.iter().chain(objects).collect();
-        let interpreter = Interpreter {
+        let mut interpreter = Interpreter {
             actions: domain.actions.iter().map(|action| (action.name.clone(), action.clone())).collect(),
             predicates: signatures(&domain.predicates),
             functions: signatures(&domain.functions),
             types: objects_by_type(&domain.types, &declared)?,
             objects: declared.iter().map(|object| object.name.clone()).collect(),
-            axioms: Axioms::new(&domain.axioms)?,
+            axioms: Axioms::named(&domain.axioms),
         };
         interpreter.check_domain(domain)?;
+        interpreter.axioms = Axioms::new(&domain.axioms, &interpreter)?;
         Ok(interpreter)
     }
 

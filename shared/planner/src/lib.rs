@@ -1,6 +1,7 @@
 //! Grounding, heuristics, search, validation and partial-order plans for PDDL tasks.
 
 mod csr;
+mod explain;
 pub mod ground;
 pub mod heuristic;
 mod id_table;
@@ -16,14 +17,15 @@ mod successor;
 pub mod task;
 pub mod validate;
 
+pub use explain::explain_unreachable;
 pub use ground::{GroundError, GroundLimits, ground};
 pub use interpreter::{GroundAction, GroundCondition, GroundEffect, Interpreter, WorldState};
 pub use makespan::{Makespan, MakespanLimits, Schedule, Scheduler};
 pub use plan::{GroundAct, Literal, Plan};
 pub use sas::write_sas;
 pub use search::{
-    Engine, GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, plan, plan_with,
-    relaxed_plan_cost, solve,
+    Anytime, Engine, GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, plan, plan_with,
+    relaxed_plan_cost, solve, solve_anytime,
 };
 pub use task::{FactId, OperatorId, State, Task};
 pub use validate::{Verdict, read_plan, validate, write_plan};

@@ -65,6 +65,14 @@ fn a_door_counted_by_a_number_is_opened_first() {
     let why =
         unreachable(FRIDGE, &format!("{objects} (:init (fridge f) (holding r apple)) (:goal (in apple f))"));
     assert_eq!(why, "(in apple f)", "a number without a value never grows");
+    let (domain, problem) = parse(
+        &format!("(define (domain d) {FRIDGE})"),
+        &format!(
+            "(define (problem p) (:domain d) {objects} (:init (fridge f) (holding r apple)) (:goal (in apple f)))"
+        ),
+    );
+    let task = ground(&domain, &problem, &GroundLimits::default()).expect("a sound task");
+    assert!(task.warnings.concat().starts_with("(doors-open f) is asked for"), "{:?}", task.warnings);
 }
 
 #[test]

@@ -1,116 +1,155 @@
 //! `lamma plan`: the planner alone.
 
-use std::path::Path;
-use std::sync::atomic::AtomicBool;
-use std::time::Duration;
+mod answer;
 
-use lamma_pddl::ast::{Domain, Problem};
-use lamma_pddl::{Report, check_domain, check_problem, parse_domain, parse_problem};
-use lamma_planner::validate::CostKind;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use lamma_pddl::parse_ground_atom;
 use lamma_planner::{
-    Engine, GroundError, Limits, Outcome, SearchOptions, ground, solve, write_plan, write_sas,
+    Engine, GroundError, GroundLimits, Limits, Outcome, Plan, SearchOptions, Unsolvable, explain_unreachable,
+    ground, solve, solve_anytime, write_sas,
 };
 
+use self::answer::Answer;
 use crate::cli::PlanArgs;
-use crate::commands::read_source;
+use crate::commands::pddl_task::{PddlTask, read_task};
 use crate::error::Failure;
 use crate::exit;
+use crate::guard::{Allowance, guard};
 use crate::out::say;
 
-/// A classical planning task as the user gave it.
-pub struct Task {
-    /// The domain.
-    pub domain: Domain,
-    /// The problem.
-    pub problem: Problem,
+/// The part of the time limit that the work gets: ending takes time, too.
+const PUNCTUALITY: f64 = 0.985;
+
+/// How to search.
+#[derive(Clone, Copy)]
+enum Search {
+    /// Until the engine is content.
+    Engine(Engine),
+    /// Until the best plan is proved to be one, or the limits end it.
+    Anytime,
 }
 
-/// Reads and checks domain and problem; warnings go to standard error, errors are the failure.
-pub fn read_task(domain: &Path, problem: &Path) -> Result<Task, Failure> {
-    let (domain_source, problem_source) = (read_source(domain)?, read_source(problem)?);
-    let domain = parse_domain(&domain_source).map_err(Failure::bad_input)?;
-    let problem = parse_problem(&problem_source).map_err(Failure::bad_input)?;
-    warn(&domain.warnings);
-    warn(&problem.warnings);
-    for report in [
-        check_domain(&domain.value, &domain_source),
-        check_problem(&domain.value, &problem.value, &problem_source),
-    ] {
-        if report.has_errors() {
-            return Err(Failure::bad_input(report));
+impl Search {
+    fn named(name: &str) -> Result<Search, Failure> {
+        let known = || Engine::ALL.map(|(name, _)| name).join(", ");
+        match name {
+            "auto" => Ok(Search::Engine(Engine::default())),
+            "anytime" => Ok(Search::Anytime),
+            name => Engine::named(name).map(Search::Engine).ok_or_else(|| {
+                Failure::bad_input(format!("no search is called {name:?}: use auto, anytime, {}", known()))
+            }),
         }
-        warn(&report);
     }
-    Ok(Task { domain: domain.value, problem: problem.value })
-}
-
-/// Prints what is odd but no error.
-pub fn warn(report: &Report) {
-    if !report.is_empty() {
-        eprintln!("{report}");
-    }
-}
-
-/// `auto`, or an engine by name.
-fn engine(name: &str) -> Result<Engine, Failure> {
-    let known = || Engine::ALL.map(|(name, _)| name).join(", ");
-    match name {
-        "auto" => Ok(Engine::default()),
-        name => Engine::named(name).ok_or_else(|| {
-            Failure::bad_input(format!("no search is called {name:?}: use auto, {}", known()))
-        }),
-    }
-}
-
-fn cost_kind(problem: &Problem) -> CostKind {
-    if problem.metric.is_some() { CostKind::Metric } else { CostKind::Unit }
 }
 
 /// Plans; prints the plan in the IPC format.
 pub fn plan(args: &PlanArgs) -> Result<u8, Failure> {
-    let task = read_task(&args.domain, &args.problem)?;
-    let limits = Limits {
-        expansions: None,
-        time: args.time_limit.map(Duration::from_secs_f64),
-        memory_bytes: args.memory_limit.map(|mib| mib << 20),
+    let started = Instant::now();
+    let search = Search::named(&args.search)?;
+    let memory_bytes = args.memory_limit.map(|mib| mib as usize * (1 << 20));
+    let allowance = Allowance {
+        deadline: args.time_limit.and_then(|s| started.checked_add(Duration::from_secs_f64(s * PUNCTUALITY))),
+        memory_bytes,
     };
-    let options = SearchOptions { engine: engine(&args.search)?, ..SearchOptions::default() };
-    let cancel = AtomicBool::new(false);
-    let grounding = limits.for_grounding(&cancel);
-    let grounded = match ground(&task.domain, &task.problem, &grounding) {
-        Err(reason @ (GroundError::GaveUp(_) | GroundError::TooLarge { .. })) => {
-            eprintln!("gave up: {reason}");
-            return Ok(exit::GAVE_UP);
+    let answer = Arc::new(Mutex::new(Answer::new(args, started)));
+    let last_word = Arc::clone(&answer);
+    guard(allowance, move |stop| {
+        let mut answer = last_word.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(code) = answer.stopped(&stop.to_string()) {
+            std::process::exit(i32::from(code));
         }
-        grounded => grounded.map_err(Failure::bad_input)?,
+    })?;
+    // The guard holds the limit, by what is resident. What a search counts includes memory that it reserved and
+    // has not used, so it counts against more.
+    let limits =
+        Limits { memory_bytes: memory_bytes.map(|bytes| bytes.saturating_mul(2)), ..Limits::default() };
+    let code = search_and_tell(args, search, &limits, &answer);
+    // Whoever comes too late has nothing to say.
+    answer.lock().unwrap_or_else(PoisonError::into_inner).close();
+    code
+}
+
+fn search_and_tell(
+    args: &PlanArgs,
+    search: Search,
+    limits: &Limits,
+    answer: &Mutex<Answer>,
+) -> Result<u8, Failure> {
+    let task = read_task(&args.domain, &args.problem)?;
+    let told = || answer.lock().unwrap_or_else(PoisonError::into_inner);
+    told().read(&task);
+    let grounded = match ground(&task.domain, &task.problem, &GroundLimits::default()) {
+        Ok(grounded) => grounded,
+        Err(error @ (GroundError::Malformed(_) | GroundError::Unsupported(_))) => {
+            return Err(Failure::bad_input(error));
+        }
+        Err(error) => return Ok(told().gave_up(&error.to_string())),
     };
+    told().grounded(&grounded.warnings);
     if args.sas {
+        if grounded.has_numbers() {
+            return Err(Failure::bad_input("the format of --sas has no numbers, and this task reads some"));
+        }
         say(write_sas(&grounded).trim_end());
         return Ok(exit::SUCCESS);
     }
-    let outcome = solve(&grounded, &options, &limits.after(&grounding), &cancel);
-    match outcome {
-        Outcome::Found(plan) => {
-            let verdict = lamma_planner::validate::validate(&task.domain, &task.problem, &plan.acts)
-                .map_err(Failure::fault)?;
-            if !verdict.is_valid() {
-                return Err(Failure::fault(format!("the planner found a wrong plan: {verdict}")));
+    let mut wrong = None;
+    let mut found = |plan: &Plan| match checked(&task, plan) {
+        Ok(plan) => told().found(plan),
+        Err(failure) => {
+            wrong = Some(failure);
+            Ok(())
+        }
+    };
+    let cancel = AtomicBool::new(false);
+    let mut written = Ok(());
+    let (outcome, optimal) = match search {
+        Search::Engine(engine) => {
+            let options = SearchOptions { engine, ..SearchOptions::default() };
+            let outcome = solve(&grounded, &options, limits, &cancel);
+            if let Outcome::Found(plan) = &outcome {
+                written = found(plan);
             }
-            let text = write_plan(&plan, cost_kind(&task.problem));
-            say(text.trim_end());
-            if let Some(path) = &args.plan_file {
-                std::fs::write(path, &text)
-                    .map_err(|e| Failure::bad_input(format!("cannot write {}: {e}", path.display())))?;
-            }
-            Ok(exit::SUCCESS)
+            (outcome, engine != Engine::Portfolio)
         }
-        Outcome::Unsolvable(reason) => {
-            eprintln!("unsolvable: {reason}");
-            Ok(exit::INFEASIBLE)
+        Search::Anytime => {
+            let end = solve_anytime(&grounded, limits, &cancel, &mut |plan| {
+                let before = std::mem::replace(&mut written, Ok(()));
+                written = before.and_then(|()| found(plan));
+            });
+            (end.outcome, end.optimal)
         }
-        Outcome::GaveUp(limit) => {
-            eprintln!("gave up: {limit}");
-            Ok(exit::GAVE_UP)
-        }
+    };
+    if let Some(failure) = wrong {
+        return Err(failure);
+    }
+    written?;
+    let mut answer = told();
+    Ok(match outcome {
+        Outcome::Found(_) => answer.done(optimal && grounded.warnings.is_empty()),
+        Outcome::Unsolvable(reason) => answer.unsolvable(&because(&task, &reason)),
+        Outcome::GaveUp(limit) => answer.gave_up(&limit.to_string()),
+    })
+}
+
+/// The reason with the cause of each part, where there is a single one.
+fn because(task: &PddlTask, reason: &Unsolvable) -> String {
+    let Unsolvable::Unreachable(facts) = reason else { return reason.to_string() };
+    let causes = facts.iter().filter_map(|fact| {
+        let atom = parse_ground_atom(fact).ok()?;
+        let cause = explain_unreachable(&task.domain, &task.problem, &atom)?;
+        Some(format!("\n  {fact}: {cause}"))
+    });
+    format!("{reason}{}", causes.collect::<String>())
+}
+
+/// The plan with its true cost, as the plain interpreter sees both.
+fn checked(task: &PddlTask, plan: &Plan) -> Result<Plan, Failure> {
+    match lamma_planner::validate(&task.domain, &task.problem, &plan.acts).map_err(Failure::fault)? {
+        lamma_planner::Verdict::Valid { cost, .. } => Ok(Plan { acts: plan.acts.clone(), cost }),
+        wrong => Err(Failure::fault(format!("the planner found a wrong plan: {wrong}"))),
     }
 }

@@ -30,6 +30,7 @@ pub(crate) fn encode(
         ground: &ground,
     };
     encoder.names(lifted, relations);
+    encoder.task.warnings.extend(ground.numbers.missing.clone());
     if !ground.impossible.is_empty() {
         encoder.impossible();
         return Ok(encoder.task);

@@ -26,6 +26,7 @@ pub(crate) fn instantiate(
     }
     builder.goal()?;
     builder.ground.pool.shrink_to_fit();
+    builder.ground.numbers.missing = builder.ground.numbers.warning();
     Ok(builder.ground)
 }
 

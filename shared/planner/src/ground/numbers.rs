@@ -80,6 +80,8 @@ pub(crate) struct Numbers {
     atoms: HashMap<String, u32>,
     /// Grouped by operator.
     pub effects: Vec<GroundNumericEffect>,
+    /// What to say of numbers without values, noted before anything is simplified away.
+    pub missing: Option<String>,
 }
 
 impl Numbers {
@@ -96,6 +98,31 @@ impl Numbers {
         self.names.push(format!("({}{args})", symbols.functions[key[0] as usize].name));
         self.ids.insert(key, id);
         id
+    }
+
+    /// What to say of numbers that are asked for, that an action would change, and that never get a value.
+    pub fn warning(&self) -> Option<String> {
+        let mut missing = vec![false; self.initial.len()];
+        for effect in self.effects.iter().filter(|effect| effect.op != AssignOp::Assign) {
+            missing[effect.target as usize] = self.initial[effect.target as usize].is_nan();
+        }
+        for effect in self.effects.iter().filter(|effect| effect.op == AssignOp::Assign) {
+            missing[effect.target as usize] = false;
+        }
+        let mut names: Vec<&str> = Vec::new();
+        for (_, comparison, _) in &self.comparisons {
+            comparison.for_each_variable(&mut |number| {
+                if std::mem::replace(&mut missing[number as usize], false) {
+                    names.push(&self.names[number as usize]);
+                }
+            });
+        }
+        let (first, more) = (names.first()?, names.len() - 1);
+        let others = if more > 0 { format!(" (and {more} more)") } else { String::new() };
+        Some(format!(
+            "{first}{others} is asked for and has no value in `:init`: comparisons with it do not hold, and actions \
+             that increase or decrease it do not apply"
+        ))
     }
 
     fn text(&self, of: &Expression) -> String {

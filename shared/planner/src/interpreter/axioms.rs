@@ -8,18 +8,26 @@ use lamma_pddl::ast::{Axiom, Condition, GroundAtom};
 
 use super::Interpreter;
 use super::error::InterpretError;
-use super::ground::Grounder;
+use super::query::{Facts, Objects, Query, Rule, rules};
 use super::state::{View, WorldState};
 
 /// Axioms in strata: those of one may negate only what earlier ones derive.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Axioms {
-    strata: Vec<Vec<Axiom>>,
+    strata: Vec<Vec<Rule>>,
+    objects: Objects,
     derived: BTreeSet<Name>,
 }
 
 impl Axioms {
-    pub fn new(axioms: &[Axiom]) -> Result<Self, InterpretError> {
+    /// Which predicates are derived, and nothing more.
+    pub fn named(axioms: &[Axiom]) -> Self {
+        let derived = axioms.iter().map(|axiom| axiom.head.name.clone()).collect();
+        Axioms { derived, ..Axioms::default() }
+    }
+
+    /// Of an interpreter that knows everything but these: their names are declared and their variables bound.
+    pub fn new(axioms: &[Axiom], interpreter: &Interpreter) -> Result<Self, InterpretError> {
         let derived: BTreeSet<Name> = axioms.iter().map(|axiom| axiom.head.name.clone()).collect();
         let mut level: BTreeMap<&Name, usize> = derived.iter().map(|name| (name, 0)).collect();
         loop {
@@ -46,9 +54,12 @@ impl Axioms {
                 break;
             }
         }
-        let mut strata: Vec<Vec<Axiom>> = vec![Vec::new(); level.values().max().map_or(0, |top| top + 1)];
-        axioms.iter().for_each(|axiom| strata[level[&axiom.head.name]].push(axiom.clone()));
-        Ok(Axioms { strata, derived })
+        let mut strata: Vec<Vec<Rule>> = vec![Vec::new(); level.values().max().map_or(0, |top| top + 1)];
+        let mut objects = Objects::new(interpreter);
+        for axiom in axioms {
+            strata[level[&axiom.head.name]].extend(rules(axiom, interpreter, &mut objects));
+        }
+        Ok(Axioms { strata, objects, derived })
     }
 
     pub fn is_empty(&self) -> bool {
@@ -59,19 +70,42 @@ impl Axioms {
         self.derived.contains(predicate)
     }
 
-    /// What follows from the state. Naive evaluation: right by looking at it, which is what it is for.
+    /// What follows from the state: stratum by stratum, each to its least fixpoint. After the first round only
+    /// what uses a new fact is looked for (semi-naive evaluation).
     pub fn consequences(&self, interpreter: &Interpreter, state: &WorldState) -> BTreeSet<GroundAtom> {
         let mut view = View { state, derived: BTreeSet::new() };
+        if self.is_empty() {
+            return view.derived;
+        }
+        let mut facts = Facts::new(self.strata.iter().flatten(), &self.objects, state);
         for stratum in &self.strata {
+            let own: BTreeSet<&Name> = stratum.iter().map(|rule| &rule.head).collect();
+            let mut first = true;
             loop {
                 let mut found = Vec::new();
-                for axiom in stratum {
-                    Grounder::new(interpreter, Vec::new()).satisfied(axiom, &view, &mut found);
+                for rule in stratum {
+                    let mut rows = Vec::new();
+                    let query =
+                        Query { interpreter, objects: &self.objects, facts: &facts, view: &view, rule };
+                    if first || rule.filters_mention(&own) {
+                        query.heads(None, &mut rows);
+                    } else {
+                        rule.positions(&own).for_each(|at| query.heads(Some(at), &mut rows));
+                    }
+                    found.extend(rows.into_iter().map(|row| (&rule.head, row)));
                 }
-                if found.is_empty() {
+                first = false;
+                facts.settle();
+                let mut more = false;
+                for (head, row) in found {
+                    if view.derived.insert(self.objects.atom(head, &row)) {
+                        facts.insert(head, row);
+                        more = true;
+                    }
+                }
+                if !more {
                     break;
                 }
-                view.derived.extend(found);
             }
         }
         view.derived
@@ -79,7 +113,7 @@ impl Axioms {
 }
 
 /// The predicates in a condition, and whether each stands under an even number of negations.
-fn mentions(condition: &Condition) -> Vec<(&Name, bool)> {
+pub(super) fn mentions(condition: &Condition) -> Vec<(&Name, bool)> {
     let mut found = Vec::new();
     let mut open = vec![(condition, true)];
     while let Some((condition, positive)) = open.pop() {

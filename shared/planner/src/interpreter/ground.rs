@@ -2,8 +2,8 @@
 
 use lamma_pddl::Name;
 use lamma_pddl::ast::{
-    Action, AssignOp, Atom, Axiom, Comparison, Condition, Effect, FunctionTerm, GroundAtom, NumericExpr,
-    Term, TypedName,
+    Action, AssignOp, Atom, Comparison, Condition, Effect, FunctionTerm, GroundAtom, NumericExpr, Term,
+    TypedName,
 };
 
 use super::Interpreter;
@@ -322,19 +322,8 @@ fn compare(op: Comparison, left: GroundExpr, right: GroundExpr, positive: bool) 
 
 /// Evaluating a lifted condition without building its ground form: axioms have too many instances to keep.
 impl Grounder<'_> {
-    /// The heads of the instances of `axiom` whose bodies hold and that are not known yet.
-    pub fn satisfied(&mut self, axiom: &Axiom, view: &View<'_>, found: &mut Vec<GroundAtom>) {
-        self.some(&axiom.head.params, &mut |grounder| {
-            let args = axiom.head.params.iter().map(|p| grounder.bound(&p.name).clone()).collect();
-            let head = GroundAtom { predicate: axiom.head.name.clone(), args };
-            if !view.derived.contains(&head) && grounder.holds(&axiom.body, view) {
-                found.push(head);
-            }
-            false
-        });
-    }
-
-    fn holds(&mut self, condition: &Condition, view: &View<'_>) -> bool {
+    /// Whether a condition holds under the bindings.
+    pub fn holds(&mut self, condition: &Condition, view: &View<'_>) -> bool {
         match condition {
             Condition::And(parts) => parts.iter().all(|part| self.holds(part, view)),
             Condition::Or(parts) => parts.iter().any(|part| self.holds(part, view)),

@@ -252,3 +252,45 @@ fn circles_of_types_and_huge_quantifiers_end() {
     let condition = parse_condition("(forall (?x ?y ?z) (p ?x ?y ?z))").expect("a condition");
     assert_eq!(interpreter.ground_condition(&condition), Err(InterpretError::TooLarge));
 }
+
+#[test]
+fn recursion_negation_and_quantifiers_in_axioms_meet() {
+    let (interpreter, mut state) = world(
+        "(:types node) (:predicates (wire ?a ?b - node) (source ?a) (live ?a) (dark ?a) (alone ?a) (all-live) (odd ?a))
+         (:functions (load ?a))
+         (:derived (live ?a) (or (source ?a) (exists (?b - node) (and (live ?b) (wire ?b ?a)))))
+         (:derived (dark ?a - node) (not (live ?a)))
+         (:derived (alone ?a - node) (forall (?b - node) (imply (wire ?a ?b) (dark ?b))))
+         (:derived (all-live) (forall (?a - node) (and (live ?a) (< (load ?a) 3))))
+         (:derived (odd ?a) (exists (?b ?a - node) (and (wire ?b ?a) (not (= ?a ?b)))))
+         (:action cut :parameters (?a ?b) :effect (not (wire ?a ?b)))
+         (:action more :parameters (?a) :effect (increase (load ?a) 1))",
+        "(:objects a b c d - node)
+         (:init (source a) (wire a b) (wire b c) (wire c b) (wire c d) (= (load a) 2) (= (load b) 0) (= (load c) 0)
+                (= (load d) 0))",
+    );
+    assert!(holds(&interpreter, &state, "(and (live d) (all-live) (alone d) (not (alone a)))"));
+    assert!(holds(&interpreter, &state, "(forall (?x - node) (odd ?x))"), "the inner ?a hides the head's");
+    apply(&interpreter, &mut state, "(more a)").expect("possible");
+    assert!(holds(&interpreter, &state, "(and (live d) (not (all-live)))"), "a number decides");
+    apply(&interpreter, &mut state, "(cut a b)").expect("possible");
+    assert!(
+        holds(&interpreter, &state, "(and (dark b) (dark c) (dark d) (alone a) (not (live b)))"),
+        "no ground for b and c"
+    );
+}
+
+#[test]
+fn large_axiom_domains_are_worked_out_by_looking_facts_up() {
+    let nodes = 400;
+    let objects: String = (0..nodes).map(|i| format!("n{i} ")).collect();
+    let edges: String = (1..nodes).map(|i| format!("(edge n{} n{i}) ", i - 1)).collect();
+    let (interpreter, state) = world(
+        "(:predicates (edge ?a ?b) (reach ?a ?b) (mid ?a ?b ?c))
+         (:derived (reach ?a ?b) (or (edge ?a ?b) (exists (?c) (and (reach ?a ?c) (edge ?c ?b)))))
+         (:derived (mid ?a ?b ?c) (and (edge ?a ?b) (edge ?b ?c) (not (reach ?c ?a))))",
+        &format!("(:objects {objects}) (:init {edges})"),
+    );
+    // Trying every object for every variable would take 400³ looks a round, 400 rounds.
+    assert!(holds(&interpreter, &state, "(and (reach n0 n399) (not (reach n9 n3)) (mid n1 n2 n3))"));
+}

@@ -19,8 +19,10 @@ pub(super) fn improve(
     let mut best = eliminate(task, plan);
     let mut left = effort;
     for weight in [5, 2, 1] {
-        let bound = cost(task, &best);
-        let search = Improvement { task, successors, relaxation, weight, bound, left: &mut left };
+        // Ties are broken by length.
+        let costs = Costs::PlusOne;
+        let bound = cost(task, costs, &best);
+        let search = Improvement { task, successors, relaxation, weight, costs, bound, left: &mut left };
         match search.run(meter) {
             Step::Better(path) => best = eliminate(task, path),
             Step::Nothing => {}
@@ -30,13 +32,9 @@ pub(super) fn improve(
     best
 }
 
-/// The cost of a plan as searches count it: as the metric says, ties broken by length.
-fn cost(task: &Task, plan: &[OperatorId]) -> u64 {
-    plan.iter().map(|&operator| operator_cost(task, operator)).sum()
-}
-
-fn operator_cost(task: &Task, operator: OperatorId) -> u64 {
-    u64::from(Costs::PlusOne.of(task, operator))
+/// The cost of a plan.
+pub(super) fn cost(task: &Task, costs: Costs, plan: &[OperatorId]) -> u64 {
+    plan.iter().map(|&operator| u64::from(costs.of(task, operator))).sum()
 }
 
 /// Drops groups of operators that the plan works without (Nakhost & Müller 2010, "Action elimination and
@@ -68,24 +66,31 @@ pub(crate) fn eliminate(task: &Task, mut plan: Vec<OperatorId>) -> Vec<OperatorI
     plan
 }
 
-enum Step {
+/// How a search for a cheaper plan ended.
+pub(super) enum Step {
     Better(Vec<OperatorId>),
+    /// There is none: only states beyond the bound and dead ends were left out.
     Nothing,
     Stopped,
 }
 
 /// One weighted A* for a plan cheaper than `bound`.
-struct Improvement<'a, 't> {
-    task: &'a Task,
-    successors: &'a Successors,
-    relaxation: &'a mut Relaxation<'t>,
-    weight: u64,
-    bound: u64,
-    left: &'a mut u64,
+pub(super) struct Improvement<'a, 't> {
+    pub task: &'a Task,
+    pub successors: &'a Successors,
+    pub relaxation: &'a mut Relaxation<'t>,
+    /// What h_FF is multiplied with.
+    pub weight: u64,
+    /// What the plan shall cost less in.
+    pub costs: Costs,
+    pub bound: u64,
+    /// States that may still be estimated.
+    pub left: &'a mut u64,
 }
 
 impl Improvement<'_, '_> {
-    fn run(self, meter: &mut Meter<'_>) -> Step {
+    /// Searches.
+    pub fn run(self, meter: &mut Meter<'_>) -> Step {
         let task = self.task;
         let mut registry = Registry::new(task);
         let mut costs = vec![0u64];
@@ -105,7 +110,7 @@ impl Improvement<'_, '_> {
             applicable.clear();
             self.successors.applicable(task, &state, &mut applicable);
             for &operator in &applicable {
-                let cost = g + operator_cost(task, operator);
+                let cost = g + u64::from(self.costs.of(task, operator));
                 if cost >= self.bound {
                     continue;
                 }

@@ -1,5 +1,6 @@
 //! Searching for plans.
 
+mod anytime;
 mod astar;
 mod greedy;
 mod improve;
@@ -14,6 +15,7 @@ use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::{Domain, Problem};
 
+pub use anytime::{Anytime, solve_anytime};
 pub(crate) use improve::eliminate;
 pub use limits::{GaveUp, Limits, Outcome, Unsolvable};
 
@@ -100,16 +102,10 @@ pub fn solve_with_statistics(
     cancel: &AtomicBool,
     statistics: &mut Statistics,
 ) -> Outcome {
-    if !task.impossible.is_empty() {
-        return Outcome::Unsolvable(Unsolvable::Unreachable(task.impossible.clone()));
-    }
-    let graph = Rc::new(Graph::new(task));
-    let unreachable = Relaxation::on(task, Rc::clone(&graph), Costs::Unit).unreachable_goals(&task.init);
-    if !unreachable.is_empty() {
-        let facts = unreachable.into_iter().map(|fact| task.fact_text(fact)).collect();
-        return Outcome::Unsolvable(Unsolvable::Unreachable(facts));
-    }
-    let successors = Successors::new(task);
+    let Prepared { graph, successors } = match prepare(task) {
+        Ok(prepared) => prepared,
+        Err(reason) => return Outcome::Unsolvable(reason),
+    };
     let mut meter = Meter::new(limits, cancel);
     let optimal = |heuristic: &mut dyn Heuristic, meter: &mut Meter<'_>| {
         astar::astar(task, &successors, heuristic, meter).map(|progress| match progress {
@@ -136,6 +132,27 @@ pub fn solve_with_statistics(
             Outcome::Found(task.plan(&path))
         }
     }
+}
+
+/// What every search needs.
+struct Prepared {
+    graph: Rc<Graph>,
+    successors: Successors,
+}
+
+/// Prepares a search, unless a part of the goal is out of reach.
+fn prepare(task: &Task) -> Result<Prepared, Unsolvable> {
+    if !task.impossible.is_empty() {
+        return Err(Unsolvable::Unreachable(task.impossible.clone()));
+    }
+    let graph = Rc::new(Graph::new(task));
+    let unreachable = Relaxation::on(task, Rc::clone(&graph), Costs::Unit).unreachable_goals(&task.init);
+    if !unreachable.is_empty() {
+        return Err(Unsolvable::Unreachable(
+            unreachable.into_iter().map(|fact| task.fact_text(fact)).collect(),
+        ));
+    }
+    Ok(Prepared { graph, successors: Successors::new(task) })
 }
 
 /// Grounds a task and searches with the default options.

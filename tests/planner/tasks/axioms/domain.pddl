@@ -1,0 +1,13 @@
+; Derived predicates, recursive and negated.
+(define (domain power)
+  (:requirements :adl :derived-predicates)
+  (:types node)
+  (:predicates (wire ?a ?b - node) (closed ?a ?b - node) (source ?a - node) (live ?a - node) (dark ?a - node)
+               (safe ?a - node) (mended ?a - node))
+  (:derived (live ?a - node) (or (source ?a) (exists (?b - node) (and (live ?b) (wire ?b ?a) (closed ?b ?a)))))
+  (:derived (dark ?a - node) (not (live ?a)))
+  (:derived (safe ?a - node) (forall (?b - node) (imply (wire ?a ?b) (dark ?b))))
+  (:action switch-on :parameters (?a ?b - node) :precondition (and (wire ?a ?b) (not (closed ?a ?b)))
+    :effect (closed ?a ?b))
+  (:action switch-off :parameters (?a ?b - node) :precondition (closed ?a ?b) :effect (not (closed ?a ?b)))
+  (:action mend :parameters (?a - node) :precondition (and (dark ?a) (safe ?a)) :effect (mended ?a)))

@@ -1,0 +1,5 @@
+(define (problem hot-slices) (:domain kitchen)
+  (:objects r1 r2 - robot fridge microwave counter - receptacle potato apple knife1 - food)
+  (:init (in potato counter) (in apple fridge) (in knife1 counter) (openable fridge) (openable microwave)
+         (heats microwave) (knife knife1) (at r1 counter) (at r2 fridge))
+  (:goal (and (sliced potato) (hot potato) (in apple counter) (forall (?c - receptacle) (not (opened ?c))))))

@@ -1,0 +1,5 @@
+(define (problem three-cells) (:domain rescale)
+  (:objects a b c - cell)
+  (:init (= (value a) 1) (= (value b) 3) (= (value c) 0.5) (= (limit) 20) (= (total-cost) 0))
+  (:goal (and (done a) (done c) (= (value b) 5.25)))
+  (:metric minimize (total-cost)))
