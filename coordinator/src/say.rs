@@ -1,13 +1,14 @@
 //! What the coordinator says: events for the person, grants, directives, the outcome.
 
 use lamma_protocol::message::{Directive, Event, EventKind, Grant, Message, Order, Outcome};
-use lamma_protocol::{AgentId, Epoch, JobId, Output, Topic};
+use lamma_protocol::{AgentId, Epoch, JobId, Output, Repeat, Topic};
 
 use crate::job::CoordinatorJob;
 use crate::machine::Coordinator;
 use crate::result::FaultResult;
 
-/// How often the coordinator repeats what it last said, in milliseconds.
+/// How often the coordinator looks whether something is to be said again, in milliseconds; grant and outcome are
+/// each time.
 const REPEAT_MS: u64 = 100;
 /// Events kept for the supervisor.
 const EVENT_WINDOW: usize = 400;
@@ -53,10 +54,13 @@ impl Coordinator {
 
     pub(crate) fn direct(&mut self, agent: AgentId, order: Order) {
         let directive = Directive { epoch: self.epoch, order };
-        if self.directives[agent.index()].as_ref() == Some(&directive) {
+        let known = self.directives[agent.index()].as_ref();
+        if known.is_some_and(|(known, _)| *known == directive) {
             return;
         }
-        self.directives[agent.index()] = Some(directive.clone());
+        let mut repeat = Repeat::default();
+        repeat.news(self.now);
+        self.directives[agent.index()] = Some((directive.clone(), repeat));
         self.outputs.push_back(Output::Publish(Topic::Directive(agent), Message::Directive(directive)));
     }
 
@@ -72,10 +76,12 @@ impl Coordinator {
         if self.epoch > Epoch(0) {
             self.say_grant();
         }
-        for (agent, directive) in (0..).map(AgentId).zip(self.directives.clone()) {
-            if let Some(directive) = directive {
-                self.outputs
-                    .push_back(Output::Publish(Topic::Directive(agent), Message::Directive(directive)));
+        for (agent, said) in (0..).map(AgentId).zip(&mut self.directives) {
+            if let Some((directive, repeat)) = said
+                && repeat.take(self.now)
+            {
+                let again = Message::Directive(directive.clone());
+                self.outputs.push_back(Output::Publish(Topic::Directive(agent), again));
             }
         }
         self.say_outcome();

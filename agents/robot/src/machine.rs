@@ -6,14 +6,11 @@ use std::sync::Arc;
 use lamma_pddl::ast::Domain;
 use lamma_protocol::message::{Directive, Message, Order, Package, PackageReport, Report, Step};
 use lamma_protocol::{
-    AgentId, Epoch, Frame, Input, JobId, Machine, Output, PackageId, Revision, StepIndex, Tick, Topic,
+    AgentId, Epoch, Frame, Input, JobId, Machine, Output, PackageId, Repeat, Revision, StepIndex, Tick, Topic,
 };
 
 use crate::execute::Execution;
 use crate::planning::{RobotDone, RobotJob};
-
-/// How often a robot repeats what it last said, in milliseconds: the cure for a lost message.
-const REPEAT_MS: u64 = 100;
 
 /// What a robot is born with.
 #[derive(Clone, Debug)]
@@ -51,7 +48,10 @@ pub struct Robot {
     heard: Option<Revision>,
     answered: Option<Revision>,
     next_job: u64,
-    repeat_at: Tick,
+    /// When the last input came.
+    now: Tick,
+    /// Of the report and of a request that waits for its answer.
+    repeat: Repeat,
     outputs: VecDeque<Output<RobotJob>>,
 }
 
@@ -66,7 +66,8 @@ impl Robot {
             heard: None,
             answered: None,
             next_job: 0,
-            repeat_at: Tick(0),
+            now: Tick(0),
+            repeat: Repeat::default(),
             outputs: VecDeque::new(),
         }
     }
@@ -150,6 +151,7 @@ impl Robot {
         let request = execution.look(frame);
         let changed = execution.done() != before;
         if let Some(request) = request {
+            self.repeat.news(self.now);
             self.outputs
                 .push_back(Output::Publish(Topic::Request(self.config.id), Message::Request(request)));
         }
@@ -163,6 +165,11 @@ impl Robot {
     }
 
     fn report(&mut self) {
+        self.repeat.news(self.now);
+        self.say_report();
+    }
+
+    fn say_report(&mut self) {
         let (done, refused) = match &self.phase {
             Phase::Executing(execution) => (execution.done(), execution.refused().cloned()),
             Phase::Idle | Phase::Planning { .. } | Phase::Left => (StepIndex(0), None),
@@ -178,9 +185,11 @@ impl Robot {
         self.outputs.push_back(Output::Publish(Topic::Report(self.config.id), Message::Report(report)));
     }
 
-    fn repeat(&mut self, now: Tick) {
-        self.repeat_at = now.after_ms(REPEAT_MS);
-        self.report();
+    fn repeat(&mut self) {
+        if !self.repeat.take(self.now) {
+            return;
+        }
+        self.say_report();
         if let Phase::Executing(execution) = &self.phase
             && let Some(request) = execution.pending()
         {
@@ -198,6 +207,7 @@ impl Machine for Robot {
         if matches!(self.phase, Phase::Left) {
             return;
         }
+        self.now = now;
         match input {
             Input::Message(_, envelope) => match envelope.message {
                 Message::Directive(directive) => self.directive(envelope.revision, directive),
@@ -228,7 +238,7 @@ impl Machine for Robot {
             Input::Done(job, done) => self.planned(job, done),
             // Who is gone is the coordinator's affair.
             Input::PeerHint(_) => {}
-            Input::Timeout => self.repeat(now),
+            Input::Timeout => self.repeat(),
         }
     }
 
@@ -237,6 +247,6 @@ impl Machine for Robot {
     }
 
     fn poll_timeout(&self) -> Option<Tick> {
-        (!matches!(self.phase, Phase::Left)).then_some(self.repeat_at)
+        (!matches!(self.phase, Phase::Left)).then_some(self.repeat.due())
     }
 }

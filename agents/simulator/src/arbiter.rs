@@ -8,18 +8,23 @@ use std::collections::{BTreeSet, VecDeque};
 use lamma_pddl::Name;
 use lamma_pddl::ast::{Domain, Init, TypedName};
 use lamma_planner::GroundAct;
-use lamma_planner::interpreter::{Interpreter, WorldState};
+use lamma_planner::interpreter::{Change, Interpreter, WorldState};
 use lamma_protocol::frame::write_frame;
 use lamma_protocol::message::{Ack, Act, Grant, Message, Refusal, RefusalKind, Request, Verdict, Vocabulary};
-use lamma_protocol::{AgentId, Epoch, FrameHeader, Input, Machine, Output, Revision, StepIndex, Tick, Topic};
+use lamma_protocol::{
+    AgentId, Epoch, FrameHeader, Input, Machine, Output, Repeat, Revision, StepIndex, Tick, Topic,
+};
 use thiserror::Error;
 
 use crate::clock::LogicalClock;
 use crate::events::{Event, Events, Happening};
 use crate::vocabulary::FactTable;
 
-/// How often the arbiter repeats what it last said, in milliseconds.
+/// How often the arbiter looks whether something is to be said again, in milliseconds.
 const REPEAT_MS: u64 = 100;
+
+/// Rest between two vocabularies, in microseconds for each fact in it: several times what it takes to send one.
+const VOCABULARY_PAUSE_US: u64 = 5;
 
 /// A member of the team as the arbiter knows it.
 #[derive(Clone, Debug)]
@@ -67,7 +72,7 @@ pub struct Arbiter {
     version: u64,
     progress: Vec<StepIndex>,
     closed: Vec<StepIndex>,
-    acks: Vec<Option<Ack>>,
+    acks: Vec<Option<(Ack, Repeat)>>,
     heard: Vec<Option<Revision>>,
     granted: Option<Revision>,
     requested: u64,
@@ -76,9 +81,15 @@ pub struct Arbiter {
     step_ms: u64,
     /// Requests that are being carried out, and when they are done.
     under_way: Vec<Option<(Tick, Request)>>,
+    /// When the last input came.
+    now: Tick,
     repeat_at: Tick,
     events: Events,
-    now: Tick,
+    frame_repeat: Repeat,
+    vocabulary_repeat: Repeat,
+    /// When the vocabulary may be said the next time, and whether it has grown since it was said.
+    vocabulary_free: Tick,
+    vocabulary_owed: bool,
     outputs: VecDeque<Output<()>>,
 }
 
@@ -91,8 +102,8 @@ impl Arbiter {
         let agents = config.agents.len();
         let mut arbiter = Arbiter {
             interpreter,
+            facts: FactTable::of(&state),
             state,
-            facts: FactTable::default(),
             agents: config.agents,
             on_lost: config.on_lost,
             lost: BTreeSet::new(),
@@ -108,11 +119,16 @@ impl Arbiter {
             clock: LogicalClock::new(agents),
             step_ms: config.step_ms,
             under_way: vec![None; agents],
+            now: Tick(0),
             repeat_at: Tick(0),
             events: Events::new(config.events, agents),
-            now: Tick(0),
+            frame_repeat: Repeat::default(),
+            vocabulary_repeat: Repeat::default(),
+            vocabulary_free: Tick(0),
+            vocabulary_owed: false,
             outputs: VecDeque::new(),
         };
+        arbiter.say_vocabulary();
         arbiter.changed();
         Ok(arbiter)
     }
@@ -168,11 +184,17 @@ impl Arbiter {
     }
 
     fn repeat(&mut self) {
-        self.say_vocabulary();
-        self.say_frame();
-        for (agent, ack) in (0..).map(AgentId).zip(self.acks.clone()) {
-            if let Some(ack) = ack {
-                self.outputs.push_back(Output::Publish(Topic::Ack(agent), Message::Ack(ack)));
+        if self.vocabulary_repeat.take(self.now) {
+            self.say_vocabulary();
+        }
+        if self.frame_repeat.take(self.now) {
+            self.say_frame();
+        }
+        for (agent, said) in (0..).map(AgentId).zip(&mut self.acks) {
+            if let Some((ack, repeat)) = said
+                && repeat.take(self.now)
+            {
+                self.outputs.push_back(Output::Publish(Topic::Ack(agent), Message::Ack(ack.clone())));
             }
         }
     }
@@ -205,11 +227,13 @@ impl Arbiter {
     /// Judges a request and answers it.
     fn settle(&mut self, agent: AgentId, request: &Request) {
         let verdict = match self.judge(agent, request) {
-            Judgement::Repeat => self.acks[agent.index()].clone(),
+            Judgement::Repeat => self.acks[agent.index()].clone().map(|(ack, _)| ack),
             Judgement::Answer(verdict) => Some(Ack { epoch: request.epoch, step: request.step, verdict }),
         };
         if let Some(ack) = verdict {
-            self.acks[agent.index()] = Some(ack.clone());
+            let mut repeat = Repeat::default();
+            repeat.news(self.now);
+            self.acks[agent.index()] = Some((ack.clone(), repeat));
             self.outputs.push_back(Output::Publish(Topic::Ack(agent), Message::Ack(ack)));
         }
     }
@@ -241,11 +265,11 @@ impl Arbiter {
             false => self.act(agent, &request.act),
         };
         match done {
-            Ok(duration) => {
+            Ok((duration, change)) => {
                 self.applied += 1;
                 self.progress[agent.index()] = next.next();
                 self.clock.applied(agent, &request.gates, duration);
-                self.changed();
+                self.world_changed(&change);
                 Judgement::Answer(Verdict::Applied { version: self.version })
             }
             Err((kind, reason)) => {
@@ -276,14 +300,14 @@ impl Arbiter {
             .map_err(|e| e.to_string())
             .and_then(|a| self.interpreter.apply(&mut self.state, &a).map_err(|e| e.to_string()));
         match done {
-            Ok(_) => self.changed(),
+            Ok(change) => self.world_changed(&change),
             Err(why) => self.outputs.push_back(Output::Log(format!("{act} did not happen: {why}"))),
         }
     }
 
     /// Whether this very request got its final answer before.
     fn is_answered(&self, agent: AgentId, request: &Request) -> bool {
-        self.acks[agent.index()].as_ref().is_some_and(|ack| {
+        self.acks[agent.index()].as_ref().is_some_and(|(ack, _)| {
             let final_answer = match &ack.verdict {
                 Verdict::Applied { .. } => true,
                 Verdict::Refused(r) => {
@@ -298,7 +322,7 @@ impl Arbiter {
         self.progress.get(gate.agent.index()).is_some_and(|done| *done >= gate.done)
     }
 
-    fn act(&mut self, agent: AgentId, act: &Act) -> Result<f64, (RefusalKind, String)> {
+    fn act(&mut self, agent: AgentId, act: &Act) -> Result<(f64, Change), (RefusalKind, String)> {
         let spec = &self.agents[agent.index()];
         let ground = GroundAct::new(act.action.as_str(), act.args.iter().map(String::as_str));
         if self.lost.contains(&agent) {
@@ -316,23 +340,41 @@ impl Arbiter {
             .interpreter
             .duration(&self.state, &action)
             .map_err(|e| (RefusalKind::Precondition, e.to_string()))?;
-        self.interpreter
+        let change = self
+            .interpreter
             .apply(&mut self.state, &action)
             .map_err(|e| (RefusalKind::Precondition, e.to_string()))?;
-        Ok(duration)
+        Ok((duration, change))
+    }
+
+    /// The world has changed, and so have its counters.
+    fn world_changed(&mut self, change: &Change) {
+        if self.facts.change(change) {
+            self.vocabulary_owed = true;
+            self.tell_new_words();
+        }
+        self.changed();
     }
 
     /// The world or its counters have changed: a new version, and a frame that shows it.
     fn changed(&mut self) {
         self.version += 1;
         self.events.changed(self.now);
-        if self.facts.cover(&self.state.facts) {
-            self.say_vocabulary();
-        }
+        self.frame_repeat.news(self.now);
         self.say_frame();
     }
 
+    /// Says a vocabulary that has grown, but not again and again while it grows: the message is the whole list.
+    fn tell_new_words(&mut self) {
+        if self.vocabulary_owed && self.now >= self.vocabulary_free {
+            self.vocabulary_repeat.news(self.now);
+            self.say_vocabulary();
+        }
+    }
+
     fn say_vocabulary(&mut self) {
+        self.vocabulary_owed = false;
+        self.vocabulary_free = self.now.after_us(VOCABULARY_PAUSE_US * self.facts.facts().len() as u64);
         let facts = self.facts.facts().to_vec();
         self.outputs.push_back(Output::Publish(Topic::Vocabulary, Message::Vocabulary(Vocabulary { facts })));
     }
@@ -348,7 +390,7 @@ impl Arbiter {
             closed: self.closed.clone(),
             facts: self.facts.facts().len() as u32,
         };
-        let words = write_frame(&header, &self.facts.encode(&self.state));
+        let words = write_frame(&header, self.facts.words());
         self.outputs.push_back(Output::PublishFrame(words));
     }
 }
@@ -381,6 +423,7 @@ impl Machine for Arbiter {
             },
             Input::Timeout => {
                 self.settle_due(now);
+                self.tell_new_words();
                 if now >= self.repeat_at {
                     self.repeat_at = now.after_ms(REPEAT_MS);
                     self.repeat();
@@ -397,6 +440,7 @@ impl Machine for Arbiter {
 
     fn poll_timeout(&self) -> Option<Tick> {
         let due = self.under_way.iter().flatten().map(|(at, _)| *at).min();
-        Some(due.map_or(self.repeat_at, |at| at.min(self.repeat_at)))
+        let owed = self.vocabulary_owed.then_some(self.vocabulary_free);
+        [Some(self.repeat_at), due, owed].into_iter().flatten().min()
     }
 }

@@ -30,6 +30,8 @@ pub enum Command {
     Validate(ValidateArgs),
     /// Run a suite of tasks and print the metric table.
     Bench(BenchArgs),
+    /// Measure teams of growing size: start-up, memory, meetings of all, actions, and that nothing is left.
+    Scale(ScaleArgs),
     /// Remove what crashed runs have left behind.
     Clean,
     /// Explain a diagnostic code, such as `pddl::unknown-predicate`.
@@ -57,6 +59,9 @@ pub enum Command {
     /// The simulator process (started by `lamma run`).
     #[command(hide = true)]
     Simulator(ChildArgs),
+    /// A process of `lamma scale`.
+    #[command(hide = true)]
+    Rally(RallyArgs),
 }
 
 /// See [`Command::List`].
@@ -121,6 +126,9 @@ pub struct CommonArgs {
     /// tenths of a second].
     #[arg(long, value_parser = seconds)]
     pub makespan_limit: Option<f64>,
+    /// Host the robots in so many processes instead of one each, for teams beyond what the host allows.
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub workers: Option<u16>,
     /// How long the simulator takes for each action, in milliseconds: to watch, or to interfere.
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(..=60_000))]
     pub step_ms: u64,
@@ -232,6 +240,66 @@ pub struct BenchArgs {
     /// Options shared with other commands.
     #[command(flatten)]
     pub common: CommonArgs,
+}
+
+/// See [`Command::Scale`].
+#[derive(Debug, Args)]
+pub struct ScaleArgs {
+    /// The sizes of the teams, separated by commas.
+    #[arg(long, value_delimiter = ',', default_value = "2,16,64", value_parser = clap::value_parser!(u16).range(1..))]
+    pub agents: Vec<u16>,
+    /// Host the robots in so many processes instead of one each.
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub workers: Option<u16>,
+    /// How often all meet [default: 2000 shared among the robots, at least 20, at most 200].
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub rounds: Option<u32>,
+    /// Where the robots start is drawn from it.
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    /// Give a team up after this many seconds.
+    #[arg(long, default_value_t = 120.0, value_parser = seconds)]
+    pub time_limit: f64,
+    /// Write the plot to this file.
+    #[arg(long, default_value = "scale.svg")]
+    pub plot: PathBuf,
+    /// Where logs and artefacts go [default: .lamma/runs/<id>].
+    #[arg(long)]
+    pub run_dir: Option<PathBuf>,
+    /// How to print the result.
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: Format,
+}
+
+/// What a process of `lamma scale` needs to know.
+#[derive(Debug, Args)]
+pub struct RallyArgs {
+    /// What it is.
+    #[arg(long, value_enum)]
+    pub role: RallyRole,
+    /// The folder of the run.
+    #[arg(long)]
+    pub run_dir: PathBuf,
+    /// The shared memory of the run.
+    #[arg(long)]
+    pub scope: lamma_bus::iceoryx::Scope,
+    /// The first robot that it hosts, for robots.
+    #[arg(long, default_value_t = 0)]
+    pub agent: u16,
+    /// When the coordinator gives up.
+    #[arg(long, default_value_t = 120_000)]
+    pub limit_ms: u64,
+}
+
+/// See [`RallyArgs`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum RallyRole {
+    /// The coordinator.
+    Coordinator,
+    /// The simulator.
+    Simulator,
+    /// One robot, or all that share a process.
+    Robots,
 }
 
 /// How a child process finds its run.

@@ -63,6 +63,11 @@ pub fn launch(
     spec.write(folder, &world)?;
     let limit = Duration::from_millis(spec.time_limit_ms) + GRACE;
     let spec = Arc::new(spec);
+    if spec.workers.is_some() && bus != BusArg::Iceoryx2 {
+        return Err(Failure::bad_input(
+            "--workers is for --bus iceoryx2: the others host all robots their own way",
+        ));
+    }
     let mut host: Box<dyn Host> = match bus {
         BusArg::Iceoryx2 => Box::new(ProcessHost::start(&spec, folder)?),
         BusArg::Inproc => Box::new(InprocHost::start(&spec, &world, folder)?),

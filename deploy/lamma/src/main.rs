@@ -16,6 +16,7 @@ mod process_host;
 mod published;
 mod references;
 mod results;
+mod scale;
 mod show;
 mod spec;
 mod suite;
@@ -52,6 +53,8 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         Command::Plan(args) => commands::plan::plan(&args),
         Command::Validate(args) => commands::validate::validate(&args),
         Command::Bench(args) => commands::bench::bench(&args),
+        Command::Scale(args) => commands::scale::scale(&args),
+        Command::Rally(args) => scale::member(&args),
         Command::Clean => commands::clean::clean(),
         Command::Explain { code } => commands::explain::explain(&code),
         Command::List { what } => Ok(commands::list::list(what)),
@@ -69,6 +72,7 @@ fn format_of(command: &Command) -> Format {
     match command {
         Command::Run(args) | Command::Solve(args) => args.common.format,
         Command::Bench(args) => args.common.format,
+        Command::Scale(args) => args.format,
         Command::Plan(args) => args.format,
         Command::Validate(args) => args.format,
         _ => Format::Text,

@@ -50,6 +50,9 @@ pub struct RunSpec {
     pub events: Vec<ScriptLine>,
     /// And so many events more, drawn by the seed.
     pub random_events: u32,
+    /// Host the robots in so many processes instead of one each.
+    #[serde(default)]
+    pub workers: Option<u16>,
 }
 
 /// What is wanted.

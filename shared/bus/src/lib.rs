@@ -112,8 +112,3 @@ fn check_bytes(node: Node, topic: Topic, agents: u16, bytes: &[u8]) -> Result<()
 fn topics_read_by(node: Node, agents: u16) -> Vec<Topic> {
     Topic::all(agents).into_iter().filter(|t| t.read_by(node)).collect()
 }
-
-/// The topics that `node` publishes in a team of `agents`, in the order of [`Topic::all`].
-fn topics_published_by(node: Node, agents: u16) -> Vec<Topic> {
-    Topic::all(agents).into_iter().filter(|t| t.publisher() == node).collect()
-}

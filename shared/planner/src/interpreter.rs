@@ -42,7 +42,8 @@ pub struct Interpreter {
     functions: BTreeMap<Name, usize>,
     /// The objects of each type, those of its subtypes included, in the order of declaration.
     types: BTreeMap<Name, Vec<Name>>,
-    objects: BTreeSet<Name>,
+    /// Each object with all types it is of.
+    objects: BTreeMap<Name, Vec<Name>>,
     axioms: Axioms,
 }
 
@@ -53,12 +54,17 @@ impl Interpreter {
             list.iter().map(|s| (s.name.clone(), s.params.len())).collect::<BTreeMap<_, _>>()
         };
         let declared: Vec<&TypedName> = domain.constants.iter().chain(objects).collect();
+        let types = objects_by_type(&domain.types, &declared)?;
+        let mut objects: BTreeMap<Name, Vec<Name>> = BTreeMap::new();
+        for (name, members) in &types {
+            members.iter().for_each(|m| objects.entry(m.clone()).or_default().push(name.clone()));
+        }
         let mut interpreter = Interpreter {
             actions: domain.actions.iter().map(|action| (action.name.clone(), action.clone())).collect(),
             predicates: signatures(&domain.predicates),
             functions: signatures(&domain.functions),
-            types: objects_by_type(&domain.types, &declared)?,
-            objects: declared.iter().map(|object| object.name.clone()).collect(),
+            types,
+            objects,
             axioms: Axioms::named(&domain.axioms),
         };
         interpreter.check_domain(domain)?;
@@ -122,11 +128,11 @@ impl Interpreter {
     }
 
     fn check_argument(&self, act: &GroundAct, param: &TypedName, arg: &Name) -> Result<(), ActError> {
-        if !self.objects.contains(arg) {
-            let nearest = lamma_pddl::suggest::nearest(arg.as_str(), &self.objects).cloned();
+        let Some(types) = self.objects.get(arg) else {
+            let nearest = lamma_pddl::suggest::nearest(arg.as_str(), self.objects.keys()).cloned();
             return Err(ActError::UnknownObject { act: act.clone(), object: arg.clone(), nearest });
-        }
-        if !self.of_types(&param.types).contains(arg) {
+        };
+        if !param.types.is_empty() && !param.types.iter().any(|t| types.contains(t)) {
             let param = Box::new(param.clone());
             return Err(ActError::WrongType { act: act.clone(), object: arg.clone(), param });
         }

@@ -7,10 +7,12 @@ pub mod frame;
 pub mod id;
 pub mod machine;
 pub mod message;
+pub mod repeat;
 pub mod topic;
 
 pub use frame::{Frame, FrameHeader};
 pub use id::{AgentId, Epoch, JobId, Node, PackageId, Revision, StepIndex, Tick};
 pub use machine::{Input, Machine, Output};
 pub use message::{Envelope, Message};
+pub use repeat::Repeat;
 pub use topic::Topic;

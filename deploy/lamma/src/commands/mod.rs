@@ -7,6 +7,7 @@ pub mod list;
 pub mod pddl_task;
 pub mod plan;
 pub mod run;
+pub mod scale;
 pub mod validate;
 
 use std::io::Read;

@@ -70,6 +70,7 @@ pub fn spec_from(common: &CommonArgs, task: Task) -> RunSpec {
         step_ms: common.step_ms,
         events: Vec::new(),
         random_events: common.random_events,
+        workers: common.workers,
     }
 }
 

@@ -54,13 +54,17 @@ pub fn robot_parts(
         domain: own_domain(folder, &member.name).map(Arc::new),
         expansions: EXPANSIONS,
     });
-    let work = |job: RobotJob, cancel: &AtomicBool| {
+    Ok(Parts { machine, workers: vec![planner()] })
+}
+
+/// What plans a robot's packages, and takes the time.
+pub fn planner() -> Worker<RobotJob, RobotDone> {
+    Box::new(|job: RobotJob, cancel: &AtomicBool| {
         let start = Instant::now();
         let mut done = job.run(cancel);
         done.elapsed_us = u64::try_from(start.elapsed().as_micros()).unwrap_or(u64::MAX);
         done
-    };
-    Ok(Parts { machine, workers: vec![Box::new(work)] })
+    })
 }
 
 fn own_domain(folder: &Path, name: &str) -> Result<Domain, String> {

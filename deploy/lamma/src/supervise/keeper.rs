@@ -10,7 +10,7 @@ use std::sync::mpsc::{Receiver, Sender, TryRecvError};
 use std::task::Waker;
 use std::time::{Duration, Instant};
 
-use lamma_bus::process::tie_to_parent;
+use lamma_bus::process::{tie_own_program, tie_to_parent};
 use rustix::event::{EventfdFlags, PollFd, PollFlags, Timespec, eventfd, poll};
 use rustix::io::Errno;
 use rustix::process::{Pid, PidfdFlags, Signal, kill_process_group, pidfd_open, pidfd_send_signal};
@@ -259,7 +259,9 @@ impl Member {
         let mut command = Command::new(program);
         command.args(&spec.args).envs(spec.env.iter().map(|(k, v)| (k, v)));
         command.stdin(Stdio::piped()).stdout(log.try_clone()?).stderr(log);
-        let mut child = tie_to_parent(&mut command).spawn()?;
+        let command =
+            if spec.ties_itself { tie_own_program(&mut command) } else { tie_to_parent(&mut command) };
+        let mut child = command.spawn()?;
         let pid = Pid::from_child(&child);
         match pidfd_open(pid, PidfdFlags::empty()) {
             Ok(pidfd) => Ok(Member { child, pid, pidfd }),

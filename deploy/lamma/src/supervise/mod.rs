@@ -46,6 +46,8 @@ pub struct Spec {
     pub env: Vec<(OsString, OsString)>,
     /// Where its output goes; a restart appends.
     pub log: PathBuf,
+    /// The program calls [`lamma_bus::process::tie_self_to_parent`] when it starts, which makes starting it cheap.
+    pub ties_itself: bool,
 }
 
 /// What the keeper tells.

@@ -108,6 +108,7 @@ fn spec(role: &str, name: &str, run: &RunDir) -> Spec {
         args: args.map(OsString::from).into(),
         env: vec![(ROLE.into(), role.into()), (FOLDER.into(), run.path().into())],
         log: log_file(run.path(), name),
+        ties_itself: false,
     }
 }
 

@@ -7,4 +7,5 @@ mod bench;
 mod faults;
 mod planner;
 mod runs;
+mod scale;
 mod tools;

@@ -16,6 +16,9 @@ use super::DriverError;
 /// wanted: long work looks at it now and then, and returns anything.
 pub type Worker<Job, Done> = Box<dyn FnMut(Job, &AtomicBool) -> Done + Send>;
 
+/// A job: which machine of the driver has asked for it, and as what.
+pub(super) type Ticket = (usize, JobId);
+
 /// A machine has a few jobs at a time; a queue this long means that it has lost count.
 const MAX_WAITING: usize = 1 << 16;
 
@@ -27,7 +30,7 @@ pub(super) struct Pool<Job, Done> {
     node: Node,
     shared: Arc<Shared<Job, Done>>,
     /// What was spawned and not cancelled or answered.
-    wanted: BTreeMap<JobId, Arc<AtomicBool>>,
+    wanted: BTreeMap<Ticket, Arc<AtomicBool>>,
 }
 
 struct Shared<Job, Done> {
@@ -37,14 +40,14 @@ struct Shared<Job, Done> {
 }
 
 struct State<Job, Done> {
-    waiting: VecDeque<(JobId, Job, Arc<AtomicBool>)>,
+    waiting: VecDeque<(Ticket, Job, Arc<AtomicBool>)>,
     answers: Vec<Answer<Done>>,
     workers: usize,
     closed: bool,
 }
 
 struct Answer<Done> {
-    job: JobId,
+    job: Ticket,
     cancelled: Arc<AtomicBool>,
     /// The answer, or the panic's message.
     done: Result<Done, String>,
@@ -81,7 +84,7 @@ impl<Job: Send + 'static, Done: Send + 'static> Pool<Job, Done> {
     }
 
     /// Queues a job.
-    pub(super) fn spawn(&mut self, job: JobId, work: Job) -> Result<(), DriverError> {
+    pub(super) fn spawn(&mut self, job: Ticket, work: Job) -> Result<(), DriverError> {
         let cancelled = Arc::new(AtomicBool::new(false));
         let mut state = self.shared.lock();
         if state.waiting.len() >= MAX_WAITING {
@@ -95,7 +98,7 @@ impl<Job: Send + 'static, Done: Send + 'static> Pool<Job, Done> {
     }
 
     /// Drops the job if it waits; otherwise sets its flag, and its answer will be dropped.
-    pub(super) fn cancel(&mut self, job: JobId) {
+    pub(super) fn cancel(&mut self, job: Ticket) {
         if let Some(cancelled) = self.wanted.remove(&job) {
             cancelled.store(true, Ordering::Relaxed);
             self.shared.lock().waiting.retain(|(_, _, flag)| !Arc::ptr_eq(flag, &cancelled));
@@ -103,7 +106,7 @@ impl<Job: Send + 'static, Done: Send + 'static> Pool<Job, Done> {
     }
 
     /// The answers that have come and are wanted.
-    pub(super) fn take_answers(&mut self) -> Vec<(JobId, Result<Done, String>)> {
+    pub(super) fn take_answers(&mut self) -> Vec<(Ticket, Result<Done, String>)> {
         let answers = std::mem::take(&mut self.shared.lock().answers);
         let wanted = answers.into_iter().filter(|a| !a.cancelled.load(Ordering::Relaxed));
         wanted

@@ -1,18 +1,20 @@
-//! Runs one machine on one bus: messages, frames, time and the answers of jobs in, outputs out.
+//! Runs machines on a bus: messages, frames, time and the answers of jobs in, outputs out.
 //!
-//! The machine is handled by one thread, the caller's. Long work goes to worker threads; their answers and
+//! Most processes have one machine ([`drive`]); a process that hosts many robots has a crowd of them on one
+//! endpoint ([`drive_crowd`]). They are handled by one thread, the caller's. Long work goes to worker threads; their answers and
 //! [`Stop`] wake the driver through the same bell as messages, so it sleeps whenever there is nothing to do.
 
+mod crowd;
 mod jobs;
 mod stop;
 
-use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use lamma_protocol::{Envelope, Input, Machine, Node, Output, Revision, Tick};
+use lamma_protocol::{Envelope, Input, Machine, Node, Output, Tick};
 use thiserror::Error;
 
 use crate::{Bus, PublishError, Received, WaitError};
+use crowd::Crowd;
 use jobs::Pool;
 pub use jobs::Worker;
 pub use stop::Stop;
@@ -104,66 +106,48 @@ where
     B: Bus + ?Sized,
 {
     let node = bus.node();
+    drive_all(Crowd::new([(node, machine)], settings), bus, workers)
+}
+
+/// As [`drive`], for many machines on one endpoint, each the one of a node: all robots of a seat (see
+/// [`Scope::seats`](crate::iceoryx::Scope::seats)). Each hears what its node reads, counts its own
+/// revisions and finishes by itself; the workers are shared.
+pub fn drive_crowd<M, B>(
+    machines: &mut [(Node, M)],
+    bus: &mut B,
+    settings: Settings<'_, M::Done>,
+    workers: Vec<Worker<M::Job, M::Done>>,
+) -> Result<End, DriverError>
+where
+    M: Machine,
+    M::Job: Send + 'static,
+    M::Done: Send + 'static,
+    B: Bus + ?Sized,
+{
+    drive_all(Crowd::new(machines.iter_mut().map(|(node, m)| (*node, m)), settings), bus, workers)
+}
+
+fn drive_all<M, B>(
+    crowd: Crowd<'_, M>,
+    bus: &mut B,
+    workers: Vec<Worker<M::Job, M::Done>>,
+) -> Result<End, DriverError>
+where
+    M: Machine,
+    M::Job: Send + 'static,
+    M::Done: Send + 'static,
+    B: Bus + ?Sized,
+{
     let waker = bus.waker();
-    settings.stop.register(&waker);
-    let jobs = Pool::start(node, workers, waker)?;
-    let revision = Revision { incarnation: settings.incarnation, number: 0 };
-    let Settings { start, stop, record, .. } = settings;
-    let feed = Feed { machine, node, start, record, pending: VecDeque::new() };
-    Driver { feed, bus, jobs, revision, stop }.run()
+    crowd.stop.register(&waker);
+    let jobs = Pool::start(bus.node(), workers, waker)?;
+    Driver { crowd, bus, jobs }.run()
 }
 
 struct Driver<'a, M: Machine, B: Bus + ?Sized> {
-    feed: Feed<'a, M>,
+    crowd: Crowd<'a, M>,
     bus: &'a mut B,
     jobs: Pool<M::Job, M::Done>,
-    revision: Revision,
-    stop: Stop,
-}
-
-/// The machine with its inputs, apart from the bus, which is busy while it hands something over.
-struct Feed<'a, M: Machine> {
-    machine: &'a mut M,
-    node: Node,
-    start: Instant,
-    record: Option<Recorder<'a, M::Done>>,
-    pending: VecDeque<Output<M::Job>>,
-}
-
-impl<M: Machine> Feed<'_, M> {
-    fn now(&self) -> Tick {
-        Tick(u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX))
-    }
-
-    /// One mutation, then drain.
-    fn handle(&mut self, input: Input<'_, M::Done>) {
-        let now = self.now();
-        if let Some(record) = &mut self.record {
-            record(now, self.node, &input);
-        }
-        self.machine.handle(now, input);
-        self.drain();
-    }
-
-    fn drain(&mut self) {
-        while let Some(output) = self.machine.poll_output() {
-            self.pending.push_back(output);
-        }
-    }
-
-    /// Feeds a timeout if one is due.
-    fn handle_timeout(&mut self) -> bool {
-        let due = self.machine.poll_timeout().is_some_and(|t| t <= self.now());
-        if due {
-            self.handle(Input::Timeout);
-        }
-        due
-    }
-
-    /// How long there is nothing to do by itself; None: for ever.
-    fn idle_time(&self) -> Option<Duration> {
-        self.machine.poll_timeout().map(|t| Duration::from_micros(t.since_us(self.now())))
-    }
 }
 
 impl<M, B> Driver<'_, M, B>
@@ -174,82 +158,75 @@ where
     B: Bus + ?Sized,
 {
     fn run(&mut self) -> Result<End, DriverError> {
-        self.feed.drain();
+        self.crowd.begin();
         loop {
-            if self.act()? {
+            self.act()?;
+            if self.crowd.finished() {
                 return Ok(End::Finished);
             }
-            if self.stop.is_set() {
+            if self.crowd.stop.is_set() {
                 return Ok(End::Stopped);
             }
             if !self.feed_all()? {
-                self.bus.wait(self.feed.idle_time())?;
+                self.bus.wait(self.crowd.idle_time())?;
             }
         }
     }
 
     /// Feeds whatever is there; false if nothing was.
     fn feed_all(&mut self) -> Result<bool, DriverError> {
-        let feed = &mut self.feed;
+        let crowd = &mut self.crowd;
         let mut some = self.bus.receive(&mut |received| match received {
-            Received::Message(topic, envelope) => feed.handle(Input::Message(topic, envelope)),
-            Received::Frame(frame) => feed.handle(Input::Frame(frame)),
-            Received::PeerHint(agent) => feed.handle(Input::PeerHint(agent)),
+            Received::Message(topic, envelope) => crowd.message(topic, envelope),
+            Received::Frame(frame) => crowd.frame(frame),
+            Received::PeerHint(agent) => crowd.hint(agent),
         }) > 0;
-        for (job, answer) in self.jobs.take_answers() {
+        for ((machine, job), answer) in self.jobs.take_answers() {
             match answer {
-                Ok(done) => self.feed.handle(Input::Done(job, done)),
+                Ok(done) => self.crowd.handle(machine, Input::Done(job, done)),
                 Err(message) => {
-                    return Err(DriverError::JobPanicked { node: self.feed.node, job: job.0, message });
+                    let node = self.crowd.node(machine);
+                    return Err(DriverError::JobPanicked { node, job: job.0, message });
                 }
             }
             some = true;
         }
-        Ok(self.feed.handle_timeout() || some)
+        Ok(self.crowd.handle_timeouts() || some)
     }
 
-    /// Does what the machine asked for. True if it has finished.
-    fn act(&mut self) -> Result<bool, DriverError> {
-        let node = self.feed.node;
-        let is_frame = |o: &Output<M::Job>| matches!(o, Output::PublishFrame(_));
-        let mut frames = self.feed.pending.iter().filter(|o| is_frame(o)).count();
-        let mut finished = false;
-        while let Some(output) = self.feed.pending.pop_front() {
+    /// Does what the machines asked for.
+    fn act(&mut self) -> Result<(), DriverError> {
+        while let Some((machine, output)) = self.crowd.pending.pop_front() {
+            let node = self.crowd.node(machine);
             match output {
                 Output::Publish(topic, message) => {
-                    self.revision = self.revision.next();
-                    let envelope = Envelope { revision: self.revision, message };
-                    let result = self.bus.publish(topic, &envelope);
-                    self.tolerate(result)?;
+                    let envelope = Envelope { revision: self.crowd.next_revision(machine), message };
+                    tolerate(node, self.bus.publish(topic, &envelope))?;
                 }
-                Output::PublishFrame(words) => {
-                    // A frame replaces the one before it: of several, readers need only the last.
-                    frames -= 1;
-                    if frames == 0 {
-                        let result = self.bus.publish_frame(&words);
-                        self.tolerate(result)?;
-                    }
-                }
-                Output::Spawn(job, work) => self.jobs.spawn(job, work)?,
-                Output::Cancel(job) => self.jobs.cancel(job),
+                // Kept apart, in `newest_frame`.
+                Output::PublishFrame(_) => {}
+                Output::Spawn(job, work) => self.jobs.spawn((machine, job), work)?,
+                Output::Cancel(job) => self.jobs.cancel((machine, job)),
                 Output::Log(line) => tracing::info!(%node, "{line}"),
-                Output::Finish => finished = true,
+                Output::Finish => self.crowd.finish(machine),
             }
         }
-        Ok(finished)
+        if let Some((machine, words)) = self.crowd.newest_frame.take() {
+            tolerate(self.crowd.node(machine), self.bus.publish_frame(&words))?;
+        }
+        Ok(())
     }
+}
 
-    /// What the transport could not send now is said again by the machine's own timers; what the machine
-    /// may not say at all is a fault.
-    fn tolerate(&self, result: Result<(), PublishError>) -> Result<(), DriverError> {
-        let node = self.feed.node;
-        match result {
-            Ok(()) => Ok(()),
-            Err(error @ (PublishError::Memory { .. } | PublishError::Transport { .. })) => {
-                tracing::warn!(%node, "{error}");
-                Ok(())
-            }
-            Err(source) => Err(DriverError::Publish { node, source }),
+/// What the transport could not send now is said again by the machine's own timers; what the machine
+/// may not say at all is a fault.
+fn tolerate(node: Node, result: Result<(), PublishError>) -> Result<(), DriverError> {
+    match result {
+        Ok(()) => Ok(()),
+        Err(error @ (PublishError::Memory { .. } | PublishError::Transport { .. })) => {
+            tracing::warn!(%node, "{error}");
+            Ok(())
         }
+        Err(source) => Err(DriverError::Publish { node, source }),
     }
 }

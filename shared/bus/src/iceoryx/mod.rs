@@ -1,10 +1,14 @@
 //! Processes of one host over shared memory (iceoryx2).
 //!
-//! - One service per topic: one publisher, history 1, buffer 1, safe overflow. The newest statement
-//!   replaces the one before it, nothing ever waits for a reader, and a late joiner gets the newest.
-//! - One event service per node, its *bell*. Who publishes rings its readers; the event id says which
-//!   topic, so a node with thousands of topics looks only at what has changed. A node that joins rings the
-//!   peers it exchanges something with, and publishers then hand it what they last said.
+//! - Few services carry many topics ([`layout`]): one towards each robot, and one from every 64 robots to
+//!   the coordinator and to the simulator. Each publisher has its own buffer at each reader; with history
+//!   and safe overflow the newest statement replaces the one before it, nothing ever waits for a reader,
+//!   and a late joiner gets the newest.
+//! - One event service per endpoint, its *bell*. Who publishes rings its readers; the event id says which
+//!   service, so a node with thousands of topics looks only at what has changed. A node that joins rings
+//!   the peers it exchanges something with, and publishers then hand it what they last said.
+//! - An endpoint may be the *seat* of many robots in one process. Its topics share buffers that can
+//!   overflow; the reader notices the gap in the numbers and rings like one that has just joined.
 //! - All limits follow from the size of the team. All names carry the run's tag ([`Scope`]), so runs never
 //!   meet, and what a crash leaves is found by its tag ([`sweep_stale`]).
 //! - Nobody but the [`Run`] cleans up after the dead: with every process doing so, starting a thousand of
@@ -12,9 +16,12 @@
 
 mod bell;
 mod endpoint;
+mod layout;
+mod reader;
 mod scope;
 mod services;
 mod sweep;
+mod writer;
 
 use std::path::PathBuf;
 
@@ -24,7 +31,7 @@ use thiserror::Error;
 pub use endpoint::Endpoint;
 pub use scope::{Scope, ScopeParseError};
 pub use services::Run;
-pub use sweep::{SweepError, sweep, sweep_stale};
+pub use sweep::{SweepError, left_over, sweep, sweep_stale};
 
 /// Why the shared memory of a run, or an endpoint on it, could not be opened.
 #[derive(Debug, Error)]

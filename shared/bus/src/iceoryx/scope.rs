@@ -1,14 +1,21 @@
 //! Where the shared memory of one run lies and how it is called.
 
 use std::fmt;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use iceoryx2::prelude::{Config, FileName, Path as IoxPath, SemanticString};
+use lamma_protocol::AgentId;
 use thiserror::Error;
+
+use super::layout::{Layout, Party};
 
 /// All POSIX shared memory of a host is here, as files.
 pub(super) const SHARED_MEMORY: &str = "/dev/shm";
+
+/// Publishers that have left and whose last words a robot has not read yet, at most.
+const EXPIRED_AT_SEATS: usize = 8;
 
 /// Letters in a tag.
 const TAG: usize = 12;
@@ -18,12 +25,29 @@ const TAG: usize = 12;
 pub struct Scope {
     tag: String,
     agents: u16,
+    per_seat: u16,
     root: PathBuf,
 }
 
 impl Scope {
-    pub(super) fn new(tag: String, agents: u16, root: PathBuf) -> Scope {
-        Scope { tag, agents, root }
+    pub(super) fn new(tag: String, layout: Layout, root: PathBuf) -> Scope {
+        Scope { tag, agents: layout.agents, per_seat: layout.per_seat, root }
+    }
+
+    /// The shape of the run.
+    pub(super) fn layout(&self) -> Layout {
+        Layout { agents: self.agents, per_seat: self.per_seat }
+    }
+
+    /// The robots that one process hosts, for each such process: one each, unless the run was created with
+    /// more to a seat.
+    pub fn seats(&self) -> Vec<Range<u16>> {
+        (0..self.layout().seats()).map(|s| self.layout().agents_of(s)).collect()
+    }
+
+    /// The robots that are hosted where this one is.
+    pub fn seat_mates(&self, agent: AgentId) -> Range<u16> {
+        self.layout().agents_of(agent.0 / self.per_seat)
     }
 
     /// Twelve hexadecimal digits that no other run on this host has.
@@ -63,8 +87,8 @@ impl Scope {
         (rest.starts_with('_') && is_tag(tag)).then_some(tag)
     }
 
-    /// The transport's configuration: the run's names, and no clean-up by members.
-    pub(super) fn config(&self) -> Result<Config, String> {
+    /// The transport's configuration for one party: the run's names, and no clean-up by members.
+    pub(super) fn config(&self, party: Party) -> Result<Config, String> {
         let mut config = Config::default();
         let root = self.root.to_str().ok_or("the path is not UTF-8")?;
         let root = IoxPath::new(root.as_bytes()).map_err(|e| format!("the path cannot be used: {e:?}"))?;
@@ -74,6 +98,11 @@ impl Scope {
         config.global.node.cleanup_dead_nodes_on_creation = false;
         config.global.node.cleanup_dead_nodes_on_destruction = false;
         config.global.service.cleanup_dead_nodes_on_open = false;
+        if let Party::Seat(_) = party {
+            // Connections of publishers that have left are kept for their last words. Room for the default of 128
+            // is a third of what a robot costs, and nobody but three others ever publishes to it.
+            config.defaults.publish_subscribe.subscriber_expired_connection_buffer = EXPIRED_AT_SEATS;
+        }
         Ok(config)
     }
 }
@@ -84,14 +113,14 @@ pub(super) fn is_tag(text: &str) -> bool {
 
 impl fmt::Display for Scope {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}:{}", self.tag, self.agents, self.root.display())
+        write!(f, "{}:{}:{}:{}", self.tag, self.agents, self.per_seat, self.root.display())
     }
 }
 
 /// Text that is not a [`Scope`].
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error(
-    "`{0}` is not a shared-memory scope (`<12 hex digits>:<agents>:<folder>`): pass on what the launcher gave"
+    "`{0}` is not a shared-memory scope (`<12 hex digits>:<agents>:<agents per process>:<folder>`): pass on what the launcher gave"
 )]
 pub struct ScopeParseError(String);
 
@@ -99,14 +128,15 @@ impl FromStr for Scope {
     type Err = ScopeParseError;
 
     fn from_str(text: &str) -> Result<Scope, ScopeParseError> {
-        let mut parts = text.splitn(3, ':');
+        let mut parts = text.splitn(4, ':');
         let mut part = || parts.next().filter(|p| !p.is_empty()).ok_or_else(|| ScopeParseError(text.into()));
-        let (tag, agents, root) = (part()?, part()?, part()?);
-        let agents = agents.parse().map_err(|_| ScopeParseError(text.into()))?;
-        if !is_tag(tag) {
+        let (tag, agents, per_seat, root) = (part()?, part()?, part()?, part()?);
+        let number = |part: &str| part.parse::<u16>().map_err(|_| ScopeParseError(text.into()));
+        let (agents, per_seat) = (number(agents)?, number(per_seat)?);
+        if !is_tag(tag) || per_seat == 0 {
             return Err(ScopeParseError(text.into()));
         }
-        Ok(Scope { tag: tag.into(), agents, root: root.into() })
+        Ok(Scope { tag: tag.into(), agents, per_seat, root: root.into() })
     }
 }
 
@@ -116,10 +146,18 @@ mod tests {
 
     #[test]
     fn a_scope_survives_the_command_line() {
-        let scope = Scope::new("0123456789ab".into(), 7, "/dev/shm/a:b".into());
+        let layout = Layout { agents: 7, per_seat: 3 };
+        let scope = Scope::new("0123456789ab".into(), layout, "/dev/shm/a:b".into());
         assert_eq!(scope.to_string().parse(), Ok(scope));
-        for bad in ["", "x", "0123456789ab:7", "0123456789ab::r", "0123456789ag:7:r", "0123456789ab:70000:r"]
-        {
+        for bad in [
+            "",
+            "x",
+            "0123456789ab:7:1",
+            "0123456789ab::1:r",
+            "0123456789ag:7:1:r",
+            "0123456789ab:70000:1:r",
+            "0123456789ab:7:0:r",
+        ] {
             assert!(bad.parse::<Scope>().is_err(), "{bad}");
         }
     }

@@ -4,12 +4,14 @@ use std::sync::{Mutex, PoisonError};
 
 use iceoryx2::prelude::*;
 use iceoryx2::service::port_factory::{event, publish_subscribe};
-use lamma_protocol::{Node as Member, Topic};
+use lamma_protocol::Node as Member;
 
+use super::layout::{Layout, Line, Party};
 use super::sweep::{Claim, SweepError, remove_half_made};
+use super::writer::Head;
 use super::{Endpoint, OpenError, Scope, sweep};
 
-pub(super) type TopicService<T> = publish_subscribe::PortFactory<ipc::Service, [T], ()>;
+pub(super) type LineService<T> = publish_subscribe::PortFactory<ipc::Service, [T], Head>;
 pub(super) type BellService = event::PortFactory<ipc::Service>;
 
 /// Ports that the dead may hold on to until [`Run::bury_the_dead`], per service.
@@ -28,11 +30,11 @@ pub(super) struct Handle {
 }
 
 impl Handle {
-    pub(super) fn new(scope: &Scope) -> Result<Handle, OpenError> {
+    pub(super) fn new(scope: &Scope, party: Party) -> Result<Handle, OpenError> {
         // iceoryx2 warns at every ring of a bell whose owner is stopped; that is our daily business.
         set_log_level(LogLevel::Error);
         let fail = |reason: String| error(scope, "the node".into(), reason);
-        let config = scope.config().map_err(fail)?;
+        let config = scope.config(party).map_err(fail)?;
         let node = NodeBuilder::new()
             .config(&config)
             .signal_handling_mode(SignalHandlingMode::Disabled)
@@ -50,47 +52,58 @@ impl Handle {
         ServiceName::new(text).map_err(|e| self.error(text, e))
     }
 
-    /// The service of a topic, whose elements are bytes or, for the frame, words.
-    pub(super) fn topic<T>(&self, topic: Topic, create: bool) -> Result<TopicService<T>, OpenError>
+    /// A data service, whose elements are bytes or, for the frame, words.
+    pub(super) fn line<T>(&self, line: Line, create: bool) -> Result<LineService<T>, OpenError>
     where
         T: std::fmt::Debug + ZeroCopySend + 'static,
     {
-        let agents = self.scope.agents();
-        let readers = Topic::nodes(agents).into_iter().filter(|n| topic.read_by(*n)).count();
-        let spare = SPARE + readers / 4;
-        let builder = self.node.service_builder(&self.name(&topic.to_string())?);
-        let builder = builder.publish_subscribe::<[T]>();
+        let builder = self.node.service_builder(&self.name(&line.to_string())?);
+        let builder = builder.publish_subscribe::<[T]>().user_header::<Head>();
         if !create {
-            return builder.open().map_err(|e| self.error(topic, e));
+            return builder.open().map_err(|e| self.error(line, e));
         }
+        let layout = self.scope.layout();
+        let (readers, publishers) = (layout.readers(line).len(), layout.publishers(line));
         let builder = builder
             .history_size(1)
-            .subscriber_max_buffer_size(1)
+            .subscriber_max_buffer_size(depth(layout, line))
             .subscriber_max_borrowed_samples(BORROWED)
             .enable_safe_overflow(true)
-            .max_publishers(1 + SPARE)
-            .max_subscribers(readers + spare)
-            .max_nodes(readers + 2 + SPARE + spare);
-        builder.create().map_err(|e| self.error(topic, e))
+            .max_publishers(publishers + spare(publishers))
+            .max_subscribers(readers + spare(readers))
+            .max_nodes(readers + publishers + 1 + 2 * spare(readers + publishers));
+        builder.create().map_err(|e| self.error(line, e))
     }
 
-    /// The service that wakes `member`.
-    pub(super) fn bell(&self, member: Member, create: bool) -> Result<BellService, OpenError> {
-        let what = format!("bell/{member}");
+    /// The service that wakes `party`.
+    pub(super) fn bell(&self, party: Party, create: bool) -> Result<BellService, OpenError> {
+        let what = format!("bell/{party}");
         let builder = self.node.service_builder(&self.name(&what)?).event();
         if !create {
             return builder.open().map_err(|e| self.error(what, e));
         }
-        let agents = self.scope.agents();
-        let peers = peers_of(member, agents).len();
-        let spare = SPARE + peers / 4;
+        let layout = self.scope.layout();
+        let peers = layout.peers(party).len();
         let builder = builder
             .max_listeners(1 + SPARE)
-            .max_notifiers(peers + spare)
-            .max_nodes(peers + 2 + SPARE + spare)
-            .event_id_max_value(Rings::new(member, agents).count() - 1)
+            .max_notifiers(peers + spare(peers))
+            .max_nodes(peers + 2 + 2 * spare(peers))
+            .event_id_max_value(layout.events(party) - 1)
             .disable_deadline();
         builder.create().map_err(|e| self.error(what, e))
+    }
+}
+
+/// Room for the dead who are not buried yet, beside `living` ports.
+fn spare(living: usize) -> usize {
+    SPARE + living / 4
+}
+
+/// How many statements of one publisher wait for a reader: the newest of its only topic, or two of each.
+pub(super) fn depth(layout: Layout, line: Line) -> usize {
+    match layout.topics_per_publisher(line) {
+        0 | 1 => 1,
+        topics => 2 * topics,
     }
 }
 
@@ -98,69 +111,16 @@ fn error(scope: &Scope, what: String, reason: String) -> OpenError {
     OpenError::Service { what, tag: scope.tag().to_owned(), reason }
 }
 
-/// The nodes that `member` exchanges something with, in the order of [`Topic::nodes`].
-pub(super) fn peers_of(member: Member, agents: u16) -> Vec<Member> {
-    let topics = Topic::all(agents);
-    let exchange = |peer: &Member| {
-        topics.iter().any(|t| {
-            (t.publisher() == member && t.read_by(*peer)) || (t.publisher() == *peer && t.read_by(member))
-        })
-    };
-    Topic::nodes(agents).into_iter().filter(exchange).collect()
-}
-
 /// Refuses to begin where descriptors would run out later.
-pub(super) fn check_open_files(node: Member, agents: u16) -> Result<(), OpenError> {
-    // A robot was seen to use 50; the others 13 per agent and some (services, ports, connections).
+pub(super) fn check_open_files(node: Member, layout: Layout) -> Result<(), OpenError> {
+    // Measured: a seat has 44 open; the others up to 10 for each seat (services, ports, connections).
     let needed = match node {
         Member::Robot(_) => 128,
-        Member::Supervisor | Member::Coordinator | Member::Simulator => 256 + 16 * u64::from(agents),
+        Member::Supervisor | Member::Coordinator | Member::Simulator => 256 + 13 * u64::from(layout.seats()),
     };
     let limit = crate::process::open_files_limit();
+    let agents = layout.agents;
     if limit < needed { Err(OpenError::OpenFiles { node, agents, needed, limit }) } else { Ok(()) }
-}
-
-/// What the event ids of one node's bell mean: first the topics it reads, then the nodes that may join.
-#[derive(Clone, Debug)]
-pub(super) struct Rings {
-    topics: Vec<Topic>,
-    nodes: Vec<Member>,
-}
-
-/// Why a bell rings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Ring {
-    /// The topic at this index of those the node reads has something new.
-    News(usize),
-    /// A node has joined.
-    Joined(Member),
-}
-
-impl Rings {
-    pub(super) fn new(member: Member, agents: u16) -> Rings {
-        Rings { topics: crate::topics_read_by(member, agents), nodes: Topic::nodes(agents) }
-    }
-
-    pub(super) fn count(&self) -> usize {
-        self.topics.len() + self.nodes.len()
-    }
-
-    pub(super) fn meaning(&self, id: usize) -> Option<Ring> {
-        match id.checked_sub(self.topics.len()) {
-            None => Some(Ring::News(id)),
-            Some(node) => self.nodes.get(node).copied().map(Ring::Joined),
-        }
-    }
-
-    /// The id that says that there is news on `topic`.
-    pub(super) fn news(&self, topic: Topic) -> Option<EventId> {
-        self.topics.iter().position(|t| *t == topic).map(EventId::new)
-    }
-
-    /// The id that says that `node` has joined.
-    pub(super) fn joined(&self, node: Member) -> Option<EventId> {
-        self.nodes.iter().position(|n| *n == node).map(|i| EventId::new(self.topics.len() + i))
-    }
 }
 
 /// The shared memory of one run, owned by the process that starts the others. Dropping it removes all of
@@ -173,16 +133,23 @@ pub struct Run {
 
 struct Services {
     handle: Handle,
-    _words: TopicService<u64>,
-    _bytes: Vec<TopicService<u8>>,
+    _words: LineService<u64>,
+    _bytes: Vec<LineService<u8>>,
     _bells: Vec<BellService>,
 }
 
 impl Run {
     /// Creates everything that a team of `agents` needs, under names that no other run has.
     pub fn create(agents: u16) -> Result<Run, OpenError> {
-        check_open_files(Member::Supervisor, agents)?;
-        let claim = Claim::new(agents)?;
+        Run::create_seated(agents, 1)
+    }
+
+    /// As [`Run::create`], for robots of which `per_seat` share a process and its endpoint; see
+    /// [`Scope::seats`].
+    pub fn create_seated(agents: u16, per_seat: u16) -> Result<Run, OpenError> {
+        let layout = Layout { agents, per_seat: per_seat.max(1) };
+        check_open_files(Member::Supervisor, layout)?;
+        let claim = Claim::new(layout)?;
         match Services::create(&claim.scope) {
             Ok(services) => Ok(Run { services: Some(services), claim }),
             Err(error) => {
@@ -230,12 +197,12 @@ impl Run {
 
 impl Services {
     fn create(scope: &Scope) -> Result<Services, OpenError> {
-        let handle = Handle::new(scope)?;
-        let topics = Topic::all(scope.agents()).into_iter().filter(|t| *t != Topic::Frame);
-        let bytes = topics.map(|t| handle.topic(t, true)).collect::<Result<_, _>>()?;
-        let words = handle.topic(Topic::Frame, true)?;
-        let nodes = Topic::nodes(scope.agents()).into_iter();
-        let bells = nodes.map(|n| handle.bell(n, true)).collect::<Result<_, _>>()?;
+        let handle = Handle::new(scope, Party::Supervisor)?;
+        let layout = scope.layout();
+        let bytes = layout.lines().filter(|l| *l != Line::Frame).map(|l| handle.line(l, true));
+        let bytes = bytes.collect::<Result<_, _>>()?;
+        let words = handle.line(Line::Frame, true)?;
+        let bells = layout.parties().map(|p| handle.bell(p, true)).collect::<Result<_, _>>()?;
         Ok(Services { handle, _words: words, _bytes: bytes, _bells: bells })
     }
 }

@@ -16,6 +16,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use thiserror::Error;
 
 use super::OpenError;
+use super::layout::Layout;
 use super::scope::{SHARED_MEMORY, Scope};
 
 /// The longest path of a folder in which the transport's sockets still have room (a socket's path has 108
@@ -46,14 +47,14 @@ pub(super) struct Claim {
 }
 
 impl Claim {
-    /// Makes a new scope for a team of `agents`, with its folder.
-    pub(super) fn new(agents: u16) -> Result<Claim, OpenError> {
+    /// Makes a new scope for a run of this shape, with its folder.
+    pub(super) fn new(layout: Layout) -> Result<Claim, OpenError> {
         let mut tried = Vec::new();
         let mut reason = String::from("no such folder");
         for base in bases() {
             // A sweeper may look at the new file before it is locked, and take it: then another name.
             for _ in 0..TRIES {
-                match Claim::in_base(&base, agents) {
+                match Claim::in_base(&base, layout) {
                     Ok(claim) => return Ok(claim),
                     Err(error) => reason = error.to_string(),
                 }
@@ -63,7 +64,7 @@ impl Claim {
         Err(OpenError::NoRoot { tried, reason })
     }
 
-    fn in_base(base: &Path, agents: u16) -> io::Result<Claim> {
+    fn in_base(base: &Path, layout: Layout) -> io::Result<Claim> {
         let tag = fresh_tag();
         let root = Scope::root_in(base, &tag);
         if root.as_os_str().len() > MAX_ROOT {
@@ -72,7 +73,7 @@ impl Claim {
         let mut options = OpenOptions::new();
         let mut file = options.write(true).create_new(true).mode(0o600).open(Scope::owner_file(&tag))?;
         file.try_lock()?;
-        let scope = Scope::new(tag, agents, root);
+        let scope = Scope::new(tag, layout, root);
         let claim = Claim { scope, _lock: file.try_clone()? };
         writeln!(file, "{}\n{}", claim.scope.root().display(), std::process::id())?;
         let made = DirBuilder::new().mode(0o700).create(claim.scope.root());
@@ -114,6 +115,14 @@ fn sweep_tag(tag: &str, roots: &[PathBuf]) -> Result<(), SweepError> {
     let ours = shared_memory().into_iter().filter(|(t, path)| t == tag && *path != owner);
     ours.into_iter().try_for_each(|(_, path)| remove(&path))?;
     remove(&owner)
+}
+
+/// What is still there of a run, to check that a sweep has left nothing.
+pub fn left_over(scope: &Scope) -> Vec<PathBuf> {
+    let files = shared_memory().into_iter().filter(|(tag, _)| tag == scope.tag()).map(|(_, path)| path);
+    let root = scope.root().exists().then(|| scope.root().to_owned());
+    let all: BTreeSet<PathBuf> = files.chain(root).collect();
+    all.into_iter().collect()
 }
 
 fn remove(path: &Path) -> Result<(), SweepError> {

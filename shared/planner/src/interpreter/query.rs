@@ -67,7 +67,7 @@ struct Range {
 
 impl Objects {
     pub fn new(interpreter: &Interpreter) -> Self {
-        let names: Vec<Name> = interpreter.objects.iter().cloned().collect();
+        let names: Vec<Name> = interpreter.objects.keys().cloned().collect();
         let ids = names.iter().cloned().zip(0..).collect();
         Objects { names, ids, ranges: Vec::new() }
     }

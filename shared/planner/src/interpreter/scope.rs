@@ -130,7 +130,7 @@ impl Interpreter {
 
     fn check_term(&self, term: &Term, scope: &Scope) -> Result<(), InterpretError> {
         match term {
-            Term::Constant(name) if !self.objects.contains(name) => {
+            Term::Constant(name) if !self.objects.contains_key(name) => {
                 Err(InterpretError::UnknownObject { name: name.clone() })
             }
             Term::Variable(name) if !scope.contains(name) => {
@@ -147,7 +147,7 @@ impl Interpreter {
         atom: &GroundAtom,
     ) -> Result<(), InterpretError> {
         check_arity(declared, kind, &atom.predicate, atom.args.len())?;
-        match atom.args.iter().find(|arg| !self.objects.contains(*arg)) {
+        match atom.args.iter().find(|arg| !self.objects.contains_key(*arg)) {
             Some(unknown) => Err(InterpretError::UnknownObject { name: unknown.clone() }),
             None => Ok(()),
         }
