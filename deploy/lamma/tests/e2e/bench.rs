@@ -27,7 +27,18 @@ fn a_repeated_benchmark_writes_the_same_bytes() {
 #[test]
 fn generated_tasks_are_a_suite() {
     let folder = Folder::new("bench-generated");
-    let args = ["bench", "--generated", "2", "--only", "FloorPlan41", "--goals-given", "--bus", "inproc", "--format", "json"];
+    let args = [
+        "bench",
+        "--generated",
+        "2",
+        "--only",
+        "FloorPlan41",
+        "--goals-given",
+        "--bus",
+        "inproc",
+        "--format",
+        "json",
+    ];
     let (code, result) = json(&output(&folder, &args));
     assert_eq!(code, 0);
     assert_eq!(result["tasks"].as_array().unwrap().len(), 20, "two in each of FloorPlan410 to 419");
