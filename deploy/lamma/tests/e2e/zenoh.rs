@@ -209,3 +209,28 @@ fn who_is_not_who_it_says_is_refused_and_the_run_goes_on() {
         }
     }
 }
+
+/// Two hosts' parts of one run, each with shared memory of its own, and a bridge between them.
+#[test]
+fn a_team_spread_over_two_hosts_is_bridged() {
+    let folder = Folder::new("two-hosts");
+    let run = folder.0.join("run").display().to_string();
+    let mut prepare = run_args(README, TEAM, &["--run-dir", &run, "--away", "west=robot17+robot24"]);
+    prepare.extend(["--stall-limit", "20"]);
+    prepare[0] = "prepare";
+    let prepared = output(&folder, &prepare);
+    assert!(prepared.status.success(), "{}", String::from_utf8_lossy(&prepared.stderr));
+    // A port that was free a moment ago: the two parts must be told the same one.
+    let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let at = format!("tcp/127.0.0.1:{port}");
+    let west = start(&folder, &["host", "west", "--run-dir", &run, "--connect", &at]);
+    let hub = start(&folder, &["host", "hub", "--run-dir", &run, "--listen", &at, "--format", "json"]);
+    let (code, result) = json(&finish(hub, SOON * 2));
+    assert_eq!((code, &result["outcome"]), (0, &"success".into()), "{result:#}");
+    let acting = result["plan"]["actions"].as_array().unwrap().iter().map(|a| a["robot"].as_str().unwrap());
+    let acting: std::collections::BTreeSet<&str> = acting.collect();
+    assert!(acting.contains("robot1") && acting.len() > 1, "robots of both hosts act: {acting:?}");
+    let out = finish(west, SOON);
+    assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
+    assert_eq!(processes_of(&folder), []);
+}
