@@ -32,6 +32,7 @@ mod transition;
 pub mod understand;
 mod world_view;
 
+pub use deadline::Patience;
 pub use job::{CoordinatorDone, CoordinatorJob};
 pub use machine::{Coordinator, CoordinatorConfig};
 pub use team::{Member, Relaxation, Team};

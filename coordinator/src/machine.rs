@@ -14,6 +14,7 @@ use lamma_protocol::{AgentId, Epoch, Input, Machine, Output, Revision, Tick, Top
 
 use crate::allocation::{Allocation, Cut};
 use crate::combine::TeamPlan;
+use crate::deadline::Patience;
 use crate::job::{CoordinatorDone, CoordinatorJob};
 use crate::phase::Phase;
 use crate::result::{ActionResult, FaultResult};
@@ -45,6 +46,8 @@ pub struct CoordinatorConfig {
     pub time_limit_ms: u64,
     /// How long the simulator takes for a time step, in milliseconds: nobody is late before that.
     pub step_ms: u64,
+    /// How long the others are waited for.
+    pub patience: Patience,
 }
 
 /// The coordinator.

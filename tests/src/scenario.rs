@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use lamma_coordinator::result::RunResult;
 use lamma_coordinator::{
-    Coordinator, CoordinatorConfig, GoalGroup, GoalItem, Member, ScoreGoal, Subgoal, Team, Understanding,
+    Coordinator, CoordinatorConfig, GoalGroup, GoalItem, Member, Patience, ScoreGoal, Subgoal, Team,
+    Understanding,
 };
 use lamma_pddl::ast::{Condition, Domain, Init, TypedName};
 use lamma_pddl::{Name, Source, parse_condition, parse_domain, parse_ground_atom};
@@ -191,6 +192,7 @@ impl Scenario {
             makespan: MakespanLimits::default(),
             time_limit_ms: 90_000,
             step_ms: 0,
+            patience: Patience::default(),
         })
         .expect("the team makes sense")
     }

@@ -13,6 +13,7 @@ use lamma_protocol::{Machine, Node};
 
 use crate::error::Failure;
 use crate::launch::{ProcessRecord, agents};
+use crate::process::join::behind_faults;
 use crate::process::{Parts, arbiter_parts, coordinator_parts, robot_parts};
 use crate::spec::RunSpec;
 
@@ -64,6 +65,8 @@ impl InprocHost {
             threads: Vec::new(),
             records: Vec::new(),
         };
+        let endpoint =
+            |node| -> Result<Box<dyn Bus + Send>, Failure> { behind_faults(endpoint(node)?, spec) };
         host.run(Node::Simulator, "simulator", endpoint(Node::Simulator)?, arbiter_parts(spec, world)?)?;
         let parts = coordinator_parts(spec, world.clone())?;
         host.run(Node::Coordinator, "coordinator", endpoint(Node::Coordinator)?, parts)?;
@@ -78,7 +81,7 @@ impl InprocHost {
         &mut self,
         node: Node,
         name: &str,
-        mut bus: Inproc,
+        mut bus: Box<dyn Bus + Send>,
         parts: Parts<M, M::Job, M::Done>,
     ) -> Result<(), Failure>
     where
@@ -90,7 +93,7 @@ impl InprocHost {
         let Parts { mut machine, workers } = parts;
         let thread = std::thread::Builder::new()
             .name(name.to_string())
-            .spawn(move || drive(&mut machine, &mut bus, settings, workers))
+            .spawn(move || drive(&mut machine, bus.as_mut(), settings, workers))
             .map_err(|e| Failure::fault(format!("no thread for {name}: {e}")))?;
         self.threads.push((node, thread));
         let role = match node {

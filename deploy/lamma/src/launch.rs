@@ -61,24 +61,33 @@ pub fn launch(
 ) -> Result<Launched, Failure> {
     let start = Instant::now();
     spec.write(folder, &world)?;
-    let limit = Duration::from_millis(spec.time_limit_ms) + GRACE;
+    let limit = limit(&spec);
     let spec = Arc::new(spec);
-    let mut host: Box<dyn Host> = match bus {
-        BusArg::Iceoryx2 => Box::new(ProcessHost::start(&spec, folder)?),
+    let host: Box<dyn Host> = match bus {
         BusArg::Inproc => Box::new(InprocHost::start(&spec, &world, folder)?),
-        BusArg::Zenoh => {
-            return Err(Failure::bad_input(
-                "--bus zenoh is not built yet: use iceoryx2 (one host) or inproc (one process)",
-            ));
-        }
+        BusArg::Iceoryx2 | BusArg::Zenoh => Box::new(ProcessHost::start(&spec, bus, folder)?),
     };
+    let (result, processes) = supervise(host, limit, watcher)?;
+    Ok(Launched { result, processes, folder: folder.to_path_buf(), elapsed: start.elapsed() })
+}
+
+/// Watches over a run that has been started, to its end, and ends everything whatever comes of it.
+pub fn supervise(
+    mut host: Box<dyn Host>,
+    limit: Duration,
+    watcher: &mut dyn Watcher,
+) -> Result<(RunResult, Vec<ProcessRecord>), Failure> {
     let watched = Supervisor::new(limit).watch(host.as_mut(), watcher);
     let processes = host.processes();
     let ended = host.end();
     let result = watched?;
     ended?;
-    let elapsed = start.elapsed();
-    Ok(Launched { result, processes, folder: folder.to_path_buf(), elapsed })
+    Ok((result, processes))
+}
+
+/// How long a run may take in all.
+pub fn limit(spec: &RunSpec) -> Duration {
+    Duration::from_millis(spec.time_limit_ms) + GRACE
 }
 
 /// The supervisor's side of the conversation.

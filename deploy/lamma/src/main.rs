@@ -10,12 +10,16 @@ mod guard;
 mod host;
 mod json;
 mod launch;
+mod meeting;
 mod out;
 mod process;
 mod process_host;
 mod published;
 mod references;
+mod remote_host;
 mod results;
+#[cfg(feature = "zenoh")]
+mod secure;
 mod show;
 mod spec;
 mod suite;
@@ -59,6 +63,11 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             clap_complete::generate(shell, &mut Cli::command(), "lamma", &mut std::io::stdout());
             Ok(exit::SUCCESS)
         }
+        Command::Prepare(args) => commands::prepare::prepare(&args),
+        Command::Host(args) => commands::host::host(&args),
+        Command::Bridge(args) => process::bridge::bridge(&args),
+        Command::New(args) => commands::new::new(&args),
+        Command::Router(args) => commands::router::router(&args),
         Command::Robot(args) => process::child::robot(&args),
         Command::Coordinator(args) => process::child::coordinator(&args),
         Command::Simulator(args) => process::child::simulator(&args),
@@ -68,6 +77,8 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
 fn format_of(command: &Command) -> Format {
     match command {
         Command::Run(args) | Command::Solve(args) => args.common.format,
+        Command::Host(args) => args.format,
+        Command::Coordinator(args) => args.format,
         Command::Bench(args) => args.common.format,
         Command::Plan(args) => args.format,
         Command::Validate(args) => args.format,

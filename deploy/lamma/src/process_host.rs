@@ -7,22 +7,23 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
 use lamma_bus::Bus;
-use lamma_bus::iceoryx::{Endpoint, Run};
-use lamma_protocol::Node;
+use lamma_protocol::{AgentId, Node};
 
+use crate::cli::BusArg;
 use crate::error::Failure;
 use crate::host::{Death, Host};
 use crate::launch::{ProcessRecord, agents};
+use crate::meeting::Meeting;
 use crate::spec::RunSpec;
 use crate::supervise::{Event, Patience, Spec, Supervisor, log_file};
 
-/// The processes of a run and the shared memory they meet in.
+/// The processes of a run and the place they meet in.
 pub struct ProcessHost {
-    // Order matters when this is dropped: first the processes end, then their memory goes.
+    // Order matters when this is dropped: first the processes end, then their place goes.
     supervisor: Supervisor,
     events: Receiver<Event>,
-    bus: Endpoint,
-    run: Run,
+    bus: Box<dyn Bus>,
+    meeting: Meeting,
     nodes: BTreeMap<String, Node>,
     records: Vec<ProcessRecord>,
     deaths: Vec<Death>,
@@ -30,47 +31,57 @@ pub struct ProcessHost {
 }
 
 impl ProcessHost {
-    /// Creates the memory, then starts the processes.
-    pub fn start(spec: &Arc<RunSpec>, folder: &Path) -> Result<Self, Failure> {
-        let team = spec.team.len() as u16;
+    /// Creates the place, then starts the processes.
+    pub fn start(spec: &Arc<RunSpec>, bus: BusArg, folder: &Path) -> Result<Self, Failure> {
+        let mut host = ProcessHost::with_authorities(spec, bus, folder)?;
+        for (agent, name) in agents(spec) {
+            host.spawn(Node::Robot(agent), "robot", name, folder)?;
+        }
+        Ok(host)
+    }
+
+    /// As [`ProcessHost::start`], without the robots that live on other hosts, and with a bridge to these, which is
+    /// told where it can be joined.
+    #[cfg(feature = "zenoh")]
+    pub fn start_hub(spec: &Arc<RunSpec>, folder: &Path, listen: Vec<OsString>) -> Result<Self, Failure> {
+        let mut host = ProcessHost::with_authorities(spec, BusArg::Iceoryx2, folder)?;
+        let join =
+            [host.meeting.arguments(), vec!["--host".into(), crate::spec::HUB.into()], listen].concat();
+        let bridge = member("bridge", "bridge", folder, join, None);
+        let pid = host.supervisor.spawn(bridge).map_err(Failure::fault)?;
+        host.records.push(ProcessRecord { role: "bridge", name: "bridge".into(), pid, restarts: 0 });
+        for (agent, name) in agents(spec).filter(|(a, _)| !spec.away.values().flatten().any(|n| *n == a.0)) {
+            host.spawn(Node::Robot(agent), "robot", name, folder)?;
+        }
+        Ok(host)
+    }
+
+    fn with_authorities(spec: &Arc<RunSpec>, bus: BusArg, folder: &Path) -> Result<Self, Failure> {
         lamma_bus::process::raise_open_files_limit().map_err(Failure::fault)?;
-        let run = Run::create(team).map_err(Failure::fault)?;
-        let bus = run.open(Node::Supervisor).map_err(Failure::fault)?;
+        let meeting = Meeting::create(bus, spec)?;
+        let bus = meeting.open(Node::Supervisor)?;
         let (supervisor, events) = Supervisor::start(Some(bus.waker())).map_err(Failure::fault)?;
-        let scope = run.scope().to_string();
         let mut host = ProcessHost {
             supervisor,
             events,
             bus,
-            run,
+            meeting,
             nodes: BTreeMap::new(),
             records: Vec::new(),
             deaths: Vec::new(),
             interrupted: false,
         };
-        host.spawn(Node::Simulator, "simulator", "simulator", folder, &scope)?;
-        host.spawn(Node::Coordinator, "coordinator", "coordinator", folder, &scope)?;
-        for (agent, name) in agents(spec) {
-            host.spawn(Node::Robot(agent), "robot", name, folder, &scope)?;
-        }
+        host.spawn(Node::Simulator, "simulator", "simulator", folder)?;
+        host.spawn(Node::Coordinator, "coordinator", "coordinator", folder)?;
         Ok(host)
     }
 
-    fn spawn(
-        &mut self,
-        node: Node,
-        role: &'static str,
-        name: &str,
-        folder: &Path,
-        scope: &str,
-    ) -> Result<(), Failure> {
-        let mut args: Vec<OsString> =
-            vec![role.into(), "--run-dir".into(), folder.into(), "--scope".into(), scope.into()];
-        if let Node::Robot(agent) = node {
-            args.extend(["--agent".into(), agent.0.to_string().into()]);
-        }
-        let log = log_file(folder, name);
-        let spec = Spec { name: name.into(), args, log, ..Spec::default() };
+    fn spawn(&mut self, node: Node, role: &'static str, name: &str, folder: &Path) -> Result<(), Failure> {
+        let agent = if let Node::Robot(agent) = node { Some(agent) } else { None };
+        let spec = Spec {
+            env: self.meeting.environment(),
+            ..member(role, name, folder, self.meeting.arguments(), agent)
+        };
         let pid = self.supervisor.spawn(spec).map_err(Failure::fault)?;
         self.nodes.insert(name.into(), node);
         self.records.push(ProcessRecord { role, name: name.into(), pid, restarts: 0 });
@@ -81,9 +92,11 @@ impl ProcessHost {
         for event in self.events.try_iter() {
             match event {
                 Event::Ended { name, how, .. } => {
-                    if let Some(&node) = self.nodes.get(&name) {
-                        self.deaths.push(Death { node, how: how.to_string() });
-                        self.run.bury_the_dead();
+                    self.meeting.bury_the_dead();
+                    match self.nodes.get(&name) {
+                        Some(&node) => self.deaths.push(Death { node, how: how.to_string() }),
+                        // Those behind it are late then, and are given up by the coordinator in time.
+                        None => tracing::error!("the {name} {how}; see its log in the run's folder"),
                     }
                 }
                 Event::Interrupted { .. } => self.interrupted = true,
@@ -92,9 +105,20 @@ impl ProcessHost {
     }
 }
 
+/// How a process of the run in `folder` is started: its role first, then where it joins.
+pub fn member(role: &str, name: &str, folder: &Path, join: Vec<OsString>, agent: Option<AgentId>) -> Spec {
+    let mut args: Vec<OsString> = vec![role.into(), "--run-dir".into(), folder.into()];
+    args.extend(join);
+    args.push("--launched".into());
+    if let Some(agent) = agent {
+        args.extend(["--agent".into(), agent.0.to_string().into()]);
+    }
+    Spec { name: name.into(), args, log: log_file(folder, name), ..Spec::default() }
+}
+
 impl Host for ProcessHost {
     fn bus(&mut self) -> &mut dyn Bus {
-        &mut self.bus
+        self.bus.as_mut()
     }
 
     fn deaths(&mut self) -> Vec<Death> {
@@ -112,9 +136,9 @@ impl Host for ProcessHost {
     }
 
     fn end(self: Box<Self>) -> Result<(), Failure> {
-        let ProcessHost { supervisor, bus, run, .. } = *self;
+        let ProcessHost { supervisor, bus, meeting, .. } = *self;
         supervisor.end(Patience::default());
         drop(bus);
-        run.end().map_err(Failure::fault)
+        meeting.end()
     }
 }

@@ -1,10 +1,13 @@
 //! A run, as it is written into its folder for the processes to find.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use lamma_bus::faulty::Plan;
+use lamma_coordinator::Patience;
 use lamma_coordinator::decompose::Instruction;
 use lamma_domains::goal::GoalEntry;
 use lamma_domains::robots::Robot;
@@ -50,6 +53,15 @@ pub struct RunSpec {
     pub events: Vec<ScriptLine>,
     /// And so many events more, drawn by the seed.
     pub random_events: u32,
+    /// How long the others are waited for.
+    #[serde(default)]
+    pub patience: Patience,
+    /// Robots that live on other hosts, by the host's name.
+    #[serde(default)]
+    pub away: BTreeMap<String, Vec<u16>>,
+    /// Faults that are injected into every process's bus, as `--fault-bus` takes them.
+    #[serde(default)]
+    pub fault_bus: Option<String>,
 }
 
 /// What is wanted.
@@ -80,6 +92,9 @@ pub struct LmSpec {
     pub lexicon: Option<PathBuf>,
 }
 
+/// The host of the coordinator and the simulator.
+pub const HUB: &str = "hub";
+
 /// Bound of one search in a robot or the coordinator, in expanded states.
 pub const EXPANSIONS: u64 = 200_000;
 
@@ -100,6 +115,11 @@ impl RunSpec {
             }),
             Task::Goal(_) => None,
         }
+    }
+
+    /// What is wrong with the bus by design.
+    pub fn faults(&self) -> Result<Option<Plan>, Failure> {
+        self.fault_bus.as_deref().map(str::parse).transpose().map_err(Failure::bad_input)
     }
 
     /// Writes the spec and each robot's own domain into the folder of the run.

@@ -3,9 +3,13 @@
 pub mod bench;
 pub mod clean;
 pub mod explain;
+pub mod host;
 pub mod list;
+pub mod new;
 pub mod pddl_task;
 pub mod plan;
+pub mod prepare;
+pub mod router;
 pub mod run;
 pub mod validate;
 

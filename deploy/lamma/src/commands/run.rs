@@ -1,9 +1,11 @@
 //! `lamma run` and `lamma solve`.
 
+use std::collections::BTreeMap;
 use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use lamma_coordinator::Patience;
 use lamma_domains::robots::{Member, team};
 use lamma_domains::world::{Rules, WorldSetup};
 
@@ -21,6 +23,17 @@ use crate::watch::{Lines, Watcher};
 
 /// Runs the instruction (or, for `solve_only`, stops at the plan) and prints the outcome.
 pub fn run(args: &RunArgs, solve_only: bool) -> Result<u8, Failure> {
+    let mut spec = spec_of(args)?;
+    spec.solve_only = solve_only;
+    let world = Arc::new(spec.world()?);
+    events::resolve(&spec.events, &world)?;
+    let launched = in_folder(spec, world, &args.common, lines(args.common.format).as_mut())?;
+    print(&launched, &args.common)?;
+    Ok(exit::of(launched.result.outcome))
+}
+
+/// The run that the arguments ask for, checked as far as that needs no world.
+pub fn spec_of(args: &RunArgs) -> Result<RunSpec, Failure> {
     let mut spec = spec_from(
         &args.common,
         Task::Instruction { text: instruction(&args.instruction)?, assume: args.common.assume },
@@ -28,14 +41,9 @@ pub fn run(args: &RunArgs, solve_only: bool) -> Result<u8, Failure> {
     spec.scene = args.scene.clone();
     let members: Vec<Member> = args.team.iter().map(|name| Member::Named(name.trim().to_string())).collect();
     spec.team = team(&members).map_err(Failure::bad_input)?;
-    spec.solve_only = solve_only;
     check_lm(&spec)?;
-    let world = Arc::new(spec.world()?);
     spec.events = script(&args.common)?;
-    events::resolve(&spec.events, &world)?;
-    let launched = in_folder(spec, world, &args.common, lines(args.common.format).as_mut())?;
-    print(&launched, &args.common)?;
-    Ok(exit::of(launched.result.outcome))
+    Ok(spec)
 }
 
 fn instruction(text: &str) -> Result<String, Failure> {
@@ -70,6 +78,12 @@ pub fn spec_from(common: &CommonArgs, task: Task) -> RunSpec {
         step_ms: common.step_ms,
         events: Vec::new(),
         random_events: common.random_events,
+        patience: Patience {
+            join_ms: (common.join_limit * 1e3) as u64,
+            stall_ms: (common.stall_limit * 1e3) as u64,
+        },
+        away: BTreeMap::new(),
+        fault_bus: common.fault_bus.as_ref().map(ToString::to_string),
     }
 }
 
@@ -90,11 +104,7 @@ pub fn in_folder(
     common: &CommonArgs,
     watcher: &mut dyn Watcher,
 ) -> Result<Launched, Failure> {
-    let folder = RunDir::create(common.run_dir.as_deref()).map_err(Failure::bad_input)?;
-    if folder.path().join("run.json").exists() {
-        let path = folder.path().display();
-        return Err(Failure::bad_input(format!("{path} holds a run already: choose another --run-dir")));
-    }
+    let folder = new_folder(common)?;
     spec.id = folder.id().to_string();
     let path: PathBuf = folder.path().to_path_buf();
     let launched = launch(spec, world, common.bus, &path, watcher)?;
@@ -104,8 +114,18 @@ pub fn in_folder(
     Ok(launched)
 }
 
+/// A folder that holds no run yet.
+pub fn new_folder(common: &CommonArgs) -> Result<RunDir, Failure> {
+    let folder = RunDir::create(common.run_dir.as_deref()).map_err(Failure::bad_input)?;
+    if folder.path().join("run.json").exists() {
+        let path = folder.path().display();
+        return Err(Failure::bad_input(format!("{path} holds a run already: choose another --run-dir")));
+    }
+    Ok(folder)
+}
+
 /// Progress goes to standard output with the rest, or to standard error where that is kept for JSON.
-fn lines(format: Format) -> Box<dyn Watcher> {
+pub fn lines(format: Format) -> Box<dyn Watcher> {
     match format {
         Format::Text => Box::new(Lines::new(anstream::stdout())),
         Format::Json if std::io::stderr().is_terminal() => Box::new(Lines::new(anstream::stderr())),

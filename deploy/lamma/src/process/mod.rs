@@ -3,7 +3,9 @@
 //! Each `…_parts` builds a machine and its workers from the spec; whether they then run as a process over
 //! shared memory or as a thread is the caller's affair.
 
+pub mod bridge;
 pub mod child;
+pub mod join;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -116,6 +118,7 @@ pub fn coordinator_parts(
         makespan: makespan_limits(spec),
         time_limit_ms: spec.time_limit_ms,
         step_ms: spec.step_ms,
+        patience: spec.patience,
     })
     .map_err(Failure::fault)?;
     let mut model = language_model(spec)?;

@@ -8,3 +8,5 @@ mod faults;
 mod planner;
 mod runs;
 mod tools;
+#[cfg(feature = "zenoh")]
+mod zenoh;

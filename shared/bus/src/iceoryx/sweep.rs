@@ -40,14 +40,14 @@ pub struct SweepError {
 
 /// The right to a run's memory: while it is held, no other process takes it for left over.
 #[derive(Debug)]
-pub(super) struct Claim {
-    pub(super) scope: Scope,
+pub(crate) struct Claim {
+    pub(crate) scope: Scope,
     _lock: File,
 }
 
 impl Claim {
     /// Makes a new scope for a team of `agents`, with its folder.
-    pub(super) fn new(agents: u16) -> Result<Claim, OpenError> {
+    pub(crate) fn new(agents: u16) -> Result<Claim, OpenError> {
         let mut tried = Vec::new();
         let mut reason = String::from("no such folder");
         for base in bases() {
