@@ -39,7 +39,11 @@ impl Coordinator {
                 let stall = self.config.patience.stall_ms + 2 * self.config.step_ms;
                 Some(following.last_progress.after_ms(stall))
             }
-            Phase::Decomposing(_) | Phase::Allocating(_) | Phase::Combining(..) | Phase::Finished => None,
+            Phase::Decomposing(_)
+            | Phase::Allocating(_)
+            | Phase::Combining(..)
+            | Phase::PlanningJointly(_)
+            | Phase::Finished => None,
         }
     }
 
@@ -74,7 +78,11 @@ impl Coordinator {
             }
             Phase::Planning(round) => self.unanswered(round),
             Phase::Executing(following) => self.stuck(following),
-            Phase::Decomposing(_) | Phase::Allocating(_) | Phase::Combining(..) | Phase::Finished => return,
+            Phase::Decomposing(_)
+            | Phase::Allocating(_)
+            | Phase::Combining(..)
+            | Phase::PlanningJointly(_)
+            | Phase::Finished => return,
         };
         if late.is_empty() {
             let reason = format!("nothing moves and nobody is late while {}", self.phase.label());

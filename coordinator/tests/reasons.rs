@@ -22,6 +22,7 @@ fn reason(task: &tasks::Task) -> Result<String, String> {
     let understanding = given(&world, &task.goal).map_err(|e| format!("not understood: {e}"))?;
     let mut input = AllocateInput {
         cut: Cut::default(),
+        rule: lamma_coordinator::AllocationRule::Shortest,
         team: Arc::new(team(&world)),
         available: (0..world.members.len()).collect(),
         facts: world.facts().cloned().collect(),

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::world::Privacy;
+
 /// Teams of robots that plan, act and survive.
 #[derive(Debug, Parser)]
 #[command(name = "lamma", version, about, max_term_width = 100, subcommand_required = true)]
@@ -80,13 +82,31 @@ pub enum ListWhat {
 #[derive(Debug, Args)]
 pub struct RunArgs {
     /// The instruction, in plain English.
-    pub instruction: String,
+    #[arg(required_unless_present_any = ["pddl", "codmap"], conflicts_with_all = ["pddl", "codmap"])]
+    pub instruction: Option<String>,
     /// The scene, such as FloorPlan6.
-    #[arg(long)]
-    pub scene: String,
+    #[arg(long, required_unless_present_any = ["pddl", "codmap"], conflicts_with_all = ["pddl", "codmap"])]
+    pub scene: Option<String>,
     /// The robots, by their names in the catalogue, separated by commas.
-    #[arg(long, value_delimiter = ',', required = true)]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        required_unless_present_any = ["pddl", "codmap"],
+        conflicts_with_all = ["pddl", "codmap"]
+    )]
     pub team: Vec<String>,
+    /// Instead of an instruction: a multi-agent PDDL task in one domain and one problem file. A classical task
+    /// is a team of one.
+    #[arg(long, num_args = 2, value_names = ["DOMAIN", "PROBLEM"])]
+    pub pddl: Option<Vec<PathBuf>>,
+    /// Instead of an instruction: a folder with domain-AGENT.pddl and problem-AGENT.pddl for each agent, who is
+    /// given only its own two.
+    #[arg(long, value_name = "DIR", conflicts_with = "pddl")]
+    pub codmap: Option<PathBuf>,
+    /// What leaves the agents of a factored task: all they know, for a coordinator they trust, or nothing with
+    /// a private name.
+    #[arg(long, value_enum, default_value = "trusted", requires = "codmap")]
+    pub privacy: Privacy,
     /// Options shared with other commands.
     #[command(flatten)]
     pub common: CommonArgs,
@@ -122,6 +142,10 @@ pub struct CommonArgs {
     /// Take the best reading of the instruction instead of asking.
     #[arg(long)]
     pub assume: bool,
+    /// Who decides which robot gets a sub-task: the shortest makespan, or the language model where it names
+    /// robots (to compare with).
+    #[arg(long, value_enum, default_value = "shortest")]
+    pub allocator: AllocatorArg,
     /// Give up after this many seconds.
     #[arg(long, default_value_t = 120.0, value_parser = seconds)]
     pub time_limit: f64,
@@ -148,6 +172,15 @@ pub struct CommonArgs {
     /// Make the bus bad by design: loss=0.1,dup=0.1,reorder=0.1,corrupt=0.01,delay=20ms,partition=robot-1@2s+5s.
     #[arg(long, value_name = "FAULTS")]
     pub fault_bus: Option<lamma_bus::faulty::Plan>,
+}
+
+/// Who allocates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, serde::Serialize, serde::Deserialize)]
+pub enum AllocatorArg {
+    /// The allocator, for the shortest makespan.
+    Shortest,
+    /// The language model, taken as it is.
+    Lm,
 }
 
 /// Transports.
@@ -217,8 +250,18 @@ pub struct ValidateArgs {
 #[derive(Debug, Args)]
 pub struct BenchArgs {
     /// A task file, one JSON object a line.
-    #[arg(long, conflicts_with = "mat_thor", required_unless_present_any = ["mat_thor", "generated"])]
+    #[arg(long, conflicts_with_all = ["mat_thor", "codmap"], required_unless_present_any = ["mat_thor", "generated", "codmap"])]
     pub tasks: Option<PathBuf>,
+    /// A folder of multi-agent PDDL tasks, laid out as CoDMAP's: unfactored/DOMAIN/PROBLEM/ and
+    /// factored/DOMAIN/PROBLEM/, with reference_values.json if there is one.
+    #[arg(long, value_name = "DIR", conflicts_with = "mat_thor")]
+    pub codmap: Option<PathBuf>,
+    /// Carry out the factored tasks, one process per agent, instead of solving the unfactored ones.
+    #[arg(long, requires = "codmap")]
+    pub factored: bool,
+    /// With --factored: see `lamma run --help`.
+    #[arg(long, value_enum, default_value = "trusted", requires = "factored")]
+    pub privacy: Privacy,
     /// A folder of MAT-THOR task files, read as they were released.
     #[arg(long)]
     pub mat_thor: Option<PathBuf>,

@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 
 use lamma_bus::{Bus, Received};
 use lamma_coordinator::result::{OutcomeKind, RunResult};
-use lamma_domains::world::WorldSetup;
 use lamma_protocol::message::{Command, Outcome};
 use lamma_protocol::{AgentId, Envelope, Message, Node, Revision, Topic};
 use serde::Serialize;
@@ -16,6 +15,7 @@ use crate::error::Failure;
 use crate::host::{Host, InprocHost, ProcessHost};
 use crate::spec::RunSpec;
 use crate::watch::Watcher;
+use crate::world::World;
 
 /// How long the team may take beyond its own limit before it counts as hung.
 const GRACE: Duration = Duration::from_secs(10);
@@ -54,7 +54,7 @@ pub struct Launched {
 /// Runs the spec. Whatever happens, nothing of the run is left when this returns.
 pub fn launch(
     spec: RunSpec,
-    world: Arc<WorldSetup>,
+    world: Arc<World>,
     bus: BusArg,
     folder: &Path,
     watcher: &mut dyn Watcher,
@@ -67,7 +67,8 @@ pub fn launch(
         BusArg::Inproc => Box::new(InprocHost::start(&spec, &world, folder)?),
         BusArg::Iceoryx2 | BusArg::Zenoh => Box::new(ProcessHost::start(&spec, bus, folder)?),
     };
-    let (result, processes) = supervise(host, limit, watcher)?;
+    let (mut result, processes) = supervise(host, limit, watcher)?;
+    spec.source.unveil(&mut result)?;
     Ok(Launched { result, processes, folder: folder.to_path_buf(), elapsed: start.elapsed() })
 }
 
@@ -203,5 +204,5 @@ impl Supervisor {
 
 /// The members of the team that a run has.
 pub fn agents(spec: &RunSpec) -> impl Iterator<Item = (AgentId, &str)> {
-    (0..).map(AgentId).zip(spec.team.iter().map(|m| m.name.as_str()))
+    (0..).map(AgentId).zip(spec.source.names())
 }

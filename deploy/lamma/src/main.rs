@@ -1,5 +1,6 @@
 //! The `lamma` command: launcher, supervisor, and every process of a team in one binary.
 
+mod batch;
 mod cli;
 mod commands;
 mod compat;
@@ -26,6 +27,7 @@ mod suite;
 mod supervise;
 mod table;
 mod watch;
+mod world;
 
 use std::process::ExitCode;
 

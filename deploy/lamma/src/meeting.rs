@@ -24,7 +24,7 @@ pub enum Meeting {
 impl Meeting {
     /// Makes the place.
     pub fn create(bus: BusArg, spec: &RunSpec) -> Result<Meeting, Failure> {
-        let agents = spec.team.len() as u16;
+        let agents = spec.team_size();
         match bus {
             #[cfg(feature = "zenoh")]
             BusArg::Zenoh => {

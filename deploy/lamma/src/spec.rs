@@ -10,12 +10,12 @@ use lamma_bus::faulty::Plan;
 use lamma_coordinator::Patience;
 use lamma_coordinator::decompose::Instruction;
 use lamma_domains::goal::GoalEntry;
-use lamma_domains::robots::Robot;
-use lamma_domains::world::{ObjectSpec, Rules, WorldSetup, setup_with};
 use serde::{Deserialize, Serialize};
 
+use crate::cli::AllocatorArg;
 use crate::error::Failure;
 use crate::events::ScriptLine;
+use crate::world::{World, WorldSource};
 
 /// Everything the processes of a run need to know.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -24,20 +24,12 @@ pub struct RunSpec {
     pub id: String,
     /// Seed of everything drawn by chance.
     pub seed: u64,
-    /// The scene.
-    pub scene: String,
-    /// The team.
-    pub team: Vec<Robot>,
-    /// Replaces the scene's movable objects.
-    pub objects: Option<Vec<ObjectSpec>>,
-    /// Rules that differ from the usual.
-    pub rules: Rules,
-    /// What is wanted.
-    pub task: Task,
-    /// What the outcome is judged by, if not by what was understood.
-    pub score: Option<Vec<GoalEntry>>,
+    /// What it is about.
+    pub source: WorldSource,
     /// Best known makespan and steps.
     pub reference: Option<(f64, usize)>,
+    /// Who decides which robot gets a sub-task.
+    pub allocator: AllocatorArg,
     /// Stop when the plan is combined.
     pub solve_only: bool,
     /// The language model.
@@ -100,14 +92,19 @@ pub const EXPANSIONS: u64 = 200_000;
 
 impl RunSpec {
     /// The world of the run; the same for the same spec, in every process.
-    pub fn world(&self) -> Result<WorldSetup, Failure> {
-        setup_with(&self.scene, &self.team, self.objects.as_deref(), self.seed, &self.rules)
-            .map_err(Failure::bad_input)
+    pub fn world(&self) -> Result<World, Failure> {
+        self.source.world(self.seed)
+    }
+
+    /// How many robots the team has.
+    pub fn team_size(&self) -> u16 {
+        u16::try_from(self.source.names().len()).unwrap_or(u16::MAX)
     }
 
     /// The instruction, if the task is one.
     pub fn instruction(&self) -> Option<Instruction> {
-        match &self.task {
+        let WorldSource::Household(household) = &self.source else { return None };
+        match &household.task {
             Task::Instruction { text, assume } => Some(Instruction {
                 text: text.clone(),
                 assume: *assume,
@@ -123,15 +120,26 @@ impl RunSpec {
     }
 
     /// Writes the spec and each robot's own domain into the folder of the run.
-    pub fn write(&self, folder: &Path, world: &WorldSetup) -> Result<(), Failure> {
+    pub fn write(&self, folder: &Path, world: &World) -> Result<(), Failure> {
         let robots = folder.join("robots");
         fs::create_dir_all(&robots).map_err(|e| Failure::io("create", &robots, &e))?;
         let write =
             |path: PathBuf, text: String| fs::write(&path, text).map_err(|e| Failure::io("write", &path, &e));
         let json = serde_json::to_string_pretty(self).map_err(|e| Failure::fault(e.to_string()))?;
         write(folder.join("run.json"), json)?;
-        for member in &world.members {
-            write(domain_file(folder, &member.name), member.domain.to_string())?;
+        match (&self.source, world) {
+            (_, World::Household(setup)) => {
+                for member in &setup.members {
+                    write(domain_file(folder, &member.name), member.domain.to_string())?;
+                }
+            }
+            // Each agent has its own files.
+            (WorldSource::Factored(_), World::Team(_)) => {}
+            (_, World::Team(task)) => {
+                for agent in &task.agents {
+                    write(domain_file(folder, agent.name.as_str()), task.domain_of(agent).to_string())?;
+                }
+            }
         }
         Ok(())
     }

@@ -75,7 +75,7 @@ mod spread {
         std::fs::create_dir_all(args.run_dir.join("logs"))
             .map_err(|e| Failure::io("create", &args.run_dir.join("logs"), &e))?;
         lamma_bus::process::raise_open_files_limit().map_err(Failure::fault)?;
-        let run = Run::create(spec.team.len() as u16).map_err(Failure::fault)?;
+        let run = Run::create(spec.team_size()).map_err(Failure::fault)?;
         let (supervisor, events) = Supervisor::start(None).map_err(Failure::fault)?;
         let join = vec!["--scope".into(), run.scope().to_string().into()];
         let place =

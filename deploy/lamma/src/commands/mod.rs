@@ -2,6 +2,7 @@
 
 pub mod bench;
 pub mod clean;
+pub mod codmap;
 pub mod explain;
 pub mod host;
 pub mod list;

@@ -8,13 +8,16 @@ use crate::error::Failure;
 use crate::exit;
 use crate::out::say;
 use crate::spec::{HUB, RunSpec};
+use crate::world::World;
 
 /// Writes the folder and says what to start where.
 pub fn prepare(args: &PrepareArgs) -> Result<u8, Failure> {
     let mut spec = spec_of(&args.run)?;
     spec.away = away(args, &spec)?;
     let world = spec.world()?;
-    crate::events::resolve(&spec.events, &world)?;
+    if let World::Household(setup) = &world {
+        crate::events::resolve(&spec.events, setup)?;
+    }
     let folder = new_folder(&args.run.common)?;
     spec.id = folder.id().to_string();
     spec.write(folder.path(), &world)?;
@@ -37,8 +40,8 @@ pub fn prepare(args: &PrepareArgs) -> Result<u8, Failure> {
     ));
     say("  lamma router --listen tcp/0.0.0.0:7447          on the host HUB");
     say(format_args!("  lamma simulator {run}"));
-    for (agent, member) in spec.team.iter().enumerate() {
-        say(format_args!("  lamma robot {run} --agent {agent}    # {}", member.name));
+    for (agent, name) in spec.source.names().into_iter().enumerate() {
+        say(format_args!("  lamma robot {run} --agent {agent}    # {name}"));
     }
     say(format_args!("  lamma coordinator {run}    # prints the outcome and ends the others"));
     Ok(exit::SUCCESS)
@@ -55,7 +58,7 @@ fn away(args: &PrepareArgs, spec: &RunSpec) -> Result<BTreeMap<String, Vec<u16>>
             return Err(fail(format!("{host:?} cannot name another host")));
         }
         for robot in robots.split('+') {
-            let agent = spec.team.iter().position(|m| m.name == robot);
+            let agent = spec.source.names().into_iter().position(|name| name == robot);
             let agent = agent.ok_or_else(|| fail(format!("no {robot:?} in the team")))? as u16;
             if away.values().flatten().any(|a| *a == agent) {
                 return Err(fail(format!("{robot} lives elsewhere already")));

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use lamma_coordinator::Patience;
 use lamma_domains::robots::{Member, team};
-use lamma_domains::world::{Rules, WorldSetup};
+use lamma_domains::world::Rules;
 
 use crate::cli::{CommonArgs, Format, RunArgs};
 use crate::error::Failure;
@@ -20,13 +20,16 @@ use crate::show;
 use crate::spec::{LmSpec, RunSpec, Task};
 use crate::supervise::RunDir;
 use crate::watch::{Lines, Watcher};
+use crate::world::{Household, World, WorldSource};
 
 /// Runs the instruction (or, for `solve_only`, stops at the plan) and prints the outcome.
 pub fn run(args: &RunArgs, solve_only: bool) -> Result<u8, Failure> {
     let mut spec = spec_of(args)?;
     spec.solve_only = solve_only;
     let world = Arc::new(spec.world()?);
-    events::resolve(&spec.events, &world)?;
+    if let World::Household(setup) = &*world {
+        events::resolve(&spec.events, setup)?;
+    }
     let launched = in_folder(spec, world, &args.common, lines(args.common.format).as_mut())?;
     print(&launched, &args.common)?;
     Ok(exit::of(launched.result.outcome))
@@ -34,16 +37,30 @@ pub fn run(args: &RunArgs, solve_only: bool) -> Result<u8, Failure> {
 
 /// The run that the arguments ask for, checked as far as that needs no world.
 pub fn spec_of(args: &RunArgs) -> Result<RunSpec, Failure> {
-    let mut spec = spec_from(
-        &args.common,
-        Task::Instruction { text: instruction(&args.instruction)?, assume: args.common.assume },
-    );
-    spec.scene = args.scene.clone();
-    let members: Vec<Member> = args.team.iter().map(|name| Member::Named(name.trim().to_string())).collect();
-    spec.team = team(&members).map_err(Failure::bad_input)?;
-    check_lm(&spec)?;
+    let mut spec = spec_from(&args.common, source(args)?);
+    check_lm(&args.common)?;
     spec.events = script(&args.common)?;
     Ok(spec)
+}
+
+/// What the run is about.
+fn source(args: &RunArgs) -> Result<WorldSource, Failure> {
+    if let Some([domain, problem]) = args.pddl.as_deref() {
+        return WorldSource::pddl(domain, problem);
+    }
+    if let Some(folder) = &args.codmap {
+        return WorldSource::factored(folder, args.privacy);
+    }
+    let text = instruction(args.instruction.as_deref().unwrap_or_default())?;
+    let members: Vec<Member> = args.team.iter().map(|name| Member::Named(name.trim().to_string())).collect();
+    Ok(WorldSource::Household(Household {
+        scene: args.scene.clone().unwrap_or_default(),
+        team: team(&members).map_err(Failure::bad_input)?,
+        objects: None,
+        rules: Rules::default(),
+        task: Task::Instruction { text, assume: args.common.assume },
+        score: None,
+    }))
 }
 
 fn instruction(text: &str) -> Result<String, Failure> {
@@ -53,25 +70,16 @@ fn instruction(text: &str) -> Result<String, Failure> {
     }
 }
 
-/// A spec with what the common options say; scene and team are left to the caller.
-pub fn spec_from(common: &CommonArgs, task: Task) -> RunSpec {
+/// A spec with what the common options say.
+pub fn spec_from(common: &CommonArgs, source: WorldSource) -> RunSpec {
     RunSpec {
         id: String::new(),
         seed: common.seed,
-        scene: String::new(),
-        team: Vec::new(),
-        objects: None,
-        rules: Rules::default(),
-        task,
-        score: None,
+        source,
         reference: None,
+        allocator: common.allocator,
         solve_only: false,
-        lm: LmSpec {
-            spec: common.lm.clone(),
-            url: common.lm_url.clone(),
-            model: common.lm_model.clone(),
-            lexicon: common.lexicon.clone(),
-        },
+        lm: lm_spec(common),
         // Bounded by the parser of the option.
         makespan_ms: common.makespan_limit.map(|s| (s * 1e3) as u64),
         time_limit_ms: (common.time_limit * 1e3) as u64,
@@ -93,14 +101,23 @@ pub fn script(common: &CommonArgs) -> Result<Vec<events::ScriptLine>, Failure> {
 }
 
 /// A wrong `--lm` is the user's mistake and is told before anything starts.
-pub fn check_lm(spec: &RunSpec) -> Result<(), Failure> {
-    crate::process::language_model(spec).map(drop)
+pub fn check_lm(common: &CommonArgs) -> Result<(), Failure> {
+    crate::process::language_model(&lm_spec(common), common.seed).map(drop)
+}
+
+fn lm_spec(common: &CommonArgs) -> LmSpec {
+    LmSpec {
+        spec: common.lm.clone(),
+        url: common.lm_url.clone(),
+        model: common.lm_model.clone(),
+        lexicon: common.lexicon.clone(),
+    }
 }
 
 /// Makes the run's folder and launches.
 pub fn in_folder(
     mut spec: RunSpec,
-    world: Arc<WorldSetup>,
+    world: Arc<World>,
     common: &CommonArgs,
     watcher: &mut dyn Watcher,
 ) -> Result<Launched, Failure> {

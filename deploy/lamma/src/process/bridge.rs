@@ -39,7 +39,7 @@ pub fn bridge(args: &BridgeArgs) -> Result<u8, Failure> {
             wire
         }
         (None, Some(connect)) => {
-            let (agents, patience) = (spec.team.len() as u16, Duration::from_secs(60));
+            let (agents, patience) = (spec.team_size(), Duration::from_secs(60));
             let join = Join { run, agents, connect: connect.clone(), identity: None, patience };
             Wire::join(&join, &args.host, &bridge).map_err(Failure::fault)?
         }

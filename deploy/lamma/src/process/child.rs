@@ -22,8 +22,7 @@ pub fn robot(args: &ChildArgs) -> Result<u8, Failure> {
 /// The coordinator, until the run is over. Without a launcher it watches over the run itself.
 pub fn coordinator(args: &CoordinatorArgs) -> Result<u8, Failure> {
     let spec = RunSpec::read(&args.child.run_dir)?;
-    let world = Arc::new(spec.world()?);
-    let parts = coordinator_parts(&spec, world)?;
+    let parts = coordinator_parts(&spec, || spec.world().map(Arc::new))?;
     match args.child.launched {
         true => serve(&args.child, &spec, Node::Coordinator, parts),
         false => crate::remote_host::coordinate(args, &spec, parts),

@@ -71,7 +71,7 @@ pub mod network {
         let name = || args.identity_name.clone().unwrap_or_else(|| node.to_string());
         let identity = args.identity.clone().map(|folder| Identity { folder, name: name() });
         let patience = Duration::from_secs_f64(args.connect_limit);
-        let join = Join { run, agents: spec.team.len() as u16, connect, identity, patience };
+        let join = Join { run, agents: spec.team_size(), connect, identity, patience };
         Endpoint::open(&join, node).map_err(Failure::fault)
     }
 }

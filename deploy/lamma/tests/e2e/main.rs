@@ -7,6 +7,7 @@ mod bench;
 mod faults;
 mod planner;
 mod runs;
+mod team_tasks;
 mod tools;
 #[cfg(feature = "zenoh")]
 mod zenoh;

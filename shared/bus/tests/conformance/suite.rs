@@ -46,6 +46,7 @@ fn sample(topic: Topic, number: u64) -> Envelope {
                 done: step,
                 refused: None,
                 broken: None,
+                share: None,
             }),
             Topic::Request(_) => Message::Request(Request {
                 epoch,
