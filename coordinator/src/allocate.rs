@@ -12,14 +12,15 @@ use lamma_pddl::ast::Condition;
 use lamma_planner::interpreter::{Interpreter, WorldState};
 use lamma_planner::{GroundAct, Limits, Outcome, Plan, SearchOptions, plan_with};
 
-use crate::allocation::{AllocateInput, Allocation, Cut, NoAllocation, PackageSpec};
+use crate::allocation::{AllocateInput, Allocation, AllocationRule, Cut, NoAllocation, PackageSpec};
 use crate::assign::{Work, assign};
 use crate::bound::makespan_lower_bound;
 use crate::combine::world_state;
 use crate::parts::{condition_from, independent_parts};
 use crate::problem::member_problem;
-use crate::reason::why_infeasible;
+use crate::reason::{Obstacles, why_infeasible};
 use crate::split::{segments, team_plan};
+use crate::understand::Subgoal;
 
 /// States estimated to make a bid shorter; about what robots spend on the plan itself.
 const IMPROVEMENT: u64 = 600;
@@ -158,7 +159,8 @@ impl Allocator<'_> {
         }
         let texts: Vec<String> = rest.iter().map(|&s| format!("\"{}\"", subgoals[s].text)).collect();
         let together = Condition::And(rest.iter().map(|&s| subgoals[s].goal.clone()).collect());
-        let why = why_infeasible(self.input, &start.facts, &together, &self.limits(), self.cancel);
+        let obstacles = Obstacles { team: &self.input.team, available: &self.input.available };
+        let why = why_infeasible(obstacles, &start.facts, &together, &self.limits(), self.cancel);
         let why = why.map_or(String::new(), |why| format!(": {why}"));
         format!(
             "each sub-task is possible, but not all of them together: {} exclude each other{why}",
@@ -221,6 +223,14 @@ impl Allocator<'_> {
         state
     }
 
+    /// Who may be given a sub-task.
+    fn candidates(&self, subgoal: usize) -> Vec<usize> {
+        let advice = &self.input.subgoals[subgoal].advice;
+        let named = |&m: &usize| advice.iter().any(|name| self.input.team.members[m].name == name.as_str());
+        let everybody = self.input.rule == AllocationRule::Shortest || advice.is_empty();
+        self.input.available.iter().copied().filter(|m| everybody || named(m)).collect()
+    }
+
     fn limits(&self) -> Limits {
         Limits { expansions: Some(self.input.expansions), ..Limits::default() }
     }
@@ -236,7 +246,7 @@ impl Allocator<'_> {
         let options = SearchOptions { improvement: Some(IMPROVEMENT), ..SearchOptions::default() };
         let mut bids = BTreeMap::new();
         let mut gave_up = None;
-        for &member in &self.input.available {
+        for member in self.candidates(subgoal) {
             if self.input.excluded.contains(&(subgoal, member)) {
                 continue;
             }
@@ -299,11 +309,18 @@ impl Allocator<'_> {
         from_start: bool,
         gave_up: Option<String>,
     ) -> Result<Plan, NoAllocation> {
-        let (team, available, limits) = (&self.input.team, &self.input.available, self.limits());
+        let (team, available, limits) = (&self.input.team, &self.candidates(index), self.limits());
+        let advised = available.len() < self.input.available.len();
         match team_plan(team, available, &state.facts, &[], goal, &limits, self.cancel) {
             Ok(Outcome::Found(plan)) => Ok(plan),
+            Ok(Outcome::Unsolvable(_)) if advised => {
+                let Subgoal { text, advice, .. } = &self.input.subgoals[index];
+                let text = format!("\"{text}\" was given to {}, and they cannot do it", advice.join(" and "));
+                Err(NoAllocation::GaveUp(text))
+            }
             Ok(Outcome::Unsolvable(reason)) => {
-                let why = why_infeasible(self.input, &state.facts, goal, &limits, self.cancel);
+                let why =
+                    why_infeasible(Obstacles { team, available }, &state.facts, goal, &limits, self.cancel);
                 let why = why.unwrap_or_else(|| reason.to_string());
                 let text = &self.input.subgoals[index].text;
                 let text = format!("nobody of the team can do \"{text}\": {why}");

@@ -35,11 +35,24 @@ impl Cut {
     }
 }
 
+/// Who decides which robot gets a sub-task.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AllocationRule {
+    /// The shortest makespan, over everybody's bids.
+    #[default]
+    Shortest,
+    /// The language model, where it named robots: nobody else is asked, whether they can do it or not. To
+    /// compare with.
+    AsAdvised,
+}
+
 /// What there is to allocate.
 #[derive(Clone, Debug)]
 pub struct AllocateInput {
     /// How finely to cut.
     pub cut: Cut,
+    /// Who decides.
+    pub rule: AllocationRule,
     /// The team.
     pub team: Arc<Team>,
     /// Members that are alive, by index.

@@ -64,7 +64,13 @@ pub fn combine(
     let keep = asked_order(interpreter, merger, packages)?;
     let order = deorder(interpreter, &merger.initial, merger.steps.clone(), &ground, &keep)
         .map_err(|(i, violation)| format!("step {i} of the merged plan: {violation}"))?;
-    Ok(team_plan(team, &order, merger, packages))
+    let ends = merger.packages.iter().map(|merged| {
+        let spec = &packages[merged.package];
+        let own = order.steps[..merged.steps.end].iter().filter(|s| s.agent == spec.member).count();
+        PackageEnd { subgoals: spec.subgoals.clone(), member: spec.member, done: StepIndex(own as u32) }
+    });
+    let ends = ends.collect();
+    Ok(team_plan(team, &order, ends))
 }
 
 /// Steps beyond which idle ones are not looked for: the search is quadratic.
@@ -145,12 +151,8 @@ fn touches(step: &TeamStep, atoms: &BTreeSet<GroundAtom>) -> bool {
     literal_effects(&step.action).any(|(_, effect)| atoms.contains(&effect.atom))
 }
 
-pub(crate) fn team_plan(
-    team: &Team,
-    order: &PartialOrder,
-    merger: &Merger,
-    packages: &[PackageSpec],
-) -> TeamPlan {
+/// The order as steps with gates, for each member.
+pub(crate) fn team_plan(team: &Team, order: &PartialOrder, ends: Vec<PackageEnd>) -> TeamPlan {
     let gates = order.gates();
     let starts = order.earliest_starts();
     let mut steps: Vec<Vec<Step>> = vec![Vec::new(); team.members.len()];
@@ -166,12 +168,6 @@ pub(crate) fn team_plan(
         steps[step.agent].push(Step { act, gates: gates.collect() });
     }
     timeline.sort_by(|a, b| a.start.total_cmp(&b.start).then(a.member.cmp(&b.member)));
-    let ends = merger.packages.iter().map(|merged| {
-        let spec = &packages[merged.package];
-        let own = order.steps[..merged.steps.end].iter().filter(|s| s.agent == spec.member).count();
-        PackageEnd { subgoals: spec.subgoals.clone(), member: spec.member, done: StepIndex(own as u32) }
-    });
-    let ends = ends.collect();
     TeamPlan { steps, timeline, ends, makespan: order.makespan() }
 }
 

@@ -1,31 +1,49 @@
 //! What happens when something takes too long. No phase waits without a deadline.
 
 use lamma_protocol::{AgentId, Tick};
+use serde::{Deserialize, Serialize};
 
 use crate::machine::Coordinator;
 use crate::phase::Phase;
 use crate::result::OutcomeKind;
 
-/// How long everybody has to join.
-const JOIN_MS: u64 = 15_000;
+/// How long the others are waited for, in milliseconds. Across a network both are a matter of the place: how long
+/// people take to start the hosts, and how long a link may be down before those behind it count as lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Patience {
+    /// How long everybody has to join.
+    pub join_ms: u64,
+    /// How long nobody may move before those who could are given up.
+    pub stall_ms: u64,
+}
+
+impl Default for Patience {
+    fn default() -> Self {
+        Patience { join_ms: 15_000, stall_ms: 4_000 }
+    }
+}
+
 /// How long the arbiter may take to open an epoch.
 const GRANT_MS: u64 = 10_000;
 /// How long a robot may plan one batch.
 const PLAN_MS: u64 = 60_000;
-/// How long nobody may move before those who could are given up.
-const STALL_MS: u64 = 4_000;
 
 impl Coordinator {
     pub(crate) fn phase_deadline(&self) -> Option<Tick> {
         let after = |ms| Some(self.stopwatch.since().after_ms(ms));
         match &self.phase {
-            Phase::Joining => after(JOIN_MS),
+            Phase::Joining => after(self.config.patience.join_ms),
             Phase::Granting => after(GRANT_MS),
             Phase::Planning(round) => Some(round.asked_at.after_ms(PLAN_MS)),
             Phase::Executing(following) => {
-                Some(following.last_progress.after_ms(STALL_MS + 2 * self.config.step_ms))
+                let stall = self.config.patience.stall_ms + 2 * self.config.step_ms;
+                Some(following.last_progress.after_ms(stall))
             }
-            Phase::Decomposing(_) | Phase::Allocating(_) | Phase::Combining(..) | Phase::Finished => None,
+            Phase::Decomposing(_)
+            | Phase::Allocating(_)
+            | Phase::Combining(..)
+            | Phase::PlanningJointly(_)
+            | Phase::Finished => None,
         }
     }
 
@@ -60,7 +78,11 @@ impl Coordinator {
             }
             Phase::Planning(round) => self.unanswered(round),
             Phase::Executing(following) => self.stuck(following),
-            Phase::Decomposing(_) | Phase::Allocating(_) | Phase::Combining(..) | Phase::Finished => return,
+            Phase::Decomposing(_)
+            | Phase::Allocating(_)
+            | Phase::Combining(..)
+            | Phase::PlanningJointly(_)
+            | Phase::Finished => return,
         };
         if late.is_empty() {
             let reason = format!("nothing moves and nobody is late while {}", self.phase.label());

@@ -19,6 +19,7 @@ pub fn team(world: &WorldSetup) -> Team {
         domain: Arc::new(world.team_domain()),
         objects: world.objects.clone(),
         relaxations: too_heavy(world).into_iter().chain([hands(world)]).collect(),
+        numbers: Vec::new(),
         skill_facts: skill_facts(world),
     }
 }

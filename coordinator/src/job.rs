@@ -10,6 +10,7 @@ use lamma_planner::interpreter::Interpreter;
 use crate::allocate::allocate;
 use crate::allocation::{AllocateInput, Allocation, NoAllocation, PackageSpec};
 use crate::combine::combine;
+use crate::joint::{JointInput, JointPlan, plan_jointly};
 use crate::merge::Merger;
 use crate::shorten::{Combined, Shorten, shorten};
 use crate::team::Team;
@@ -27,6 +28,8 @@ pub enum CoordinatorJob {
     Allocate(Box<AllocateInput>),
     /// See [`combine`].
     Combine(Box<CombineInput>),
+    /// See [`plan_jointly`].
+    PlanJointly(Box<JointInput>),
 }
 
 /// Input of [`CoordinatorJob::Combine`].
@@ -53,6 +56,8 @@ pub enum CoordinatorDone {
     Allocated(Result<Allocation, NoAllocation>),
     /// Of [`CoordinatorJob::Combine`].
     Combined(Result<Box<Combined>, String>),
+    /// Of [`CoordinatorJob::PlanJointly`].
+    PlannedJointly(Result<Box<JointPlan>, NoAllocation>),
 }
 
 impl CoordinatorJob {
@@ -68,6 +73,9 @@ impl CoordinatorJob {
             }
             CoordinatorJob::Allocate(input) => CoordinatorDone::Allocated(allocate(&input, cancel)),
             CoordinatorJob::Combine(input) => CoordinatorDone::Combined(input.run(cancel)),
+            CoordinatorJob::PlanJointly(input) => {
+                CoordinatorDone::PlannedJointly(plan_jointly(&input, cancel).map(Box::new))
+            }
         }
     }
 }

@@ -12,9 +12,11 @@ use lamma_planner::interpreter::Interpreter;
 use lamma_protocol::message::{Directive, Event, Message};
 use lamma_protocol::{AgentId, Epoch, Input, Machine, Output, Repeat, Revision, Tick, Topic};
 
-use crate::allocation::{Allocation, Cut};
+use crate::allocation::{Allocation, AllocationRule, Cut};
 use crate::combine::TeamPlan;
+use crate::deadline::Patience;
 use crate::job::{CoordinatorDone, CoordinatorJob};
+use crate::mission::Mission;
 use crate::phase::Phase;
 use crate::result::{ActionResult, FaultResult};
 use crate::roster::Roster;
@@ -28,13 +30,15 @@ use crate::world_view::WorldView;
 pub struct CoordinatorConfig {
     /// The team.
     pub team: Arc<Team>,
-    /// What is wanted, when it needs no language; otherwise the language model is asked.
-    pub given: Option<Understanding>,
+    /// What is wanted, and the way to a plan for it.
+    pub mission: Mission,
     /// What the outcome is judged by, when it is not what was understood (a benchmark's own goal).
     pub score: Option<ScoreGoal>,
     /// The best makespan and number of steps known for the task, for Eff and RU. Without it the first
     /// plan is the reference.
     pub reference: Option<(f64, usize)>,
+    /// Who decides which robot gets a sub-task.
+    pub rule: AllocationRule,
     /// Stop when the plan is combined.
     pub solve_only: bool,
     /// Bound of each of the coordinator's searches, in expanded states.
@@ -45,6 +49,8 @@ pub struct CoordinatorConfig {
     pub time_limit_ms: u64,
     /// How long the simulator takes for a time step, in milliseconds: nobody is late before that.
     pub step_ms: u64,
+    /// How long the others are waited for.
+    pub patience: Patience,
 }
 
 /// The coordinator.
@@ -95,7 +101,7 @@ impl Coordinator {
             roster: Roster::new(members),
             view: WorldView::default(),
             phase: Phase::Joining,
-            understanding: config.given.clone(),
+            understanding: config.mission.understanding(),
             allocation: None,
             lower_bound: None,
             first_plan: None,

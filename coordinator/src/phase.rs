@@ -24,6 +24,8 @@ pub(crate) enum Phase {
     Planning(Box<Round>),
     /// The combiner is at work.
     Combining(JobId, Box<Round>),
+    /// The whole team is planned for at once.
+    PlanningJointly(JobId),
     /// Robots act.
     Executing(Box<Following>),
     /// The outcome is out.
@@ -40,6 +42,7 @@ impl Phase {
             Phase::Allocating(_) => "allocating",
             Phase::Planning(_) => "planning",
             Phase::Combining(..) => "combining",
+            Phase::PlanningJointly(_) => "planning",
             Phase::Executing(_) => "executing",
             Phase::Finished => "finished",
         }

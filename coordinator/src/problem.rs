@@ -39,7 +39,12 @@ pub fn joint_problem(
         name: Name::new("for-the-team"),
         domain: team.domain.name.clone(),
         objects: team.objects.clone(),
-        init: facts.iter().chain(skills).map(|f| Init::Fact(f.clone())).collect(),
+        init: facts
+            .iter()
+            .chain(skills)
+            .map(|f| Init::Fact(f.clone()))
+            .chain(team.numbers.iter().cloned())
+            .collect(),
         goal: goal.clone(),
         metric: None,
     }

@@ -112,7 +112,7 @@ fn replan(
             });
         }
     }
-    Some((team_plan(team, &order, &merger, &[]), merger.state, packages))
+    Some((team_plan(team, &order, Vec::new()), merger.state, packages))
 }
 
 /// Who contributes to a goal: the agents of the steps from which causal links lead to it.

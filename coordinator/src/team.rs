@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lamma_pddl::Name;
-use lamma_pddl::ast::{Atom, Condition, Domain, Effect, GroundAtom, Signature, Term, TypedName};
+use lamma_pddl::ast::{Atom, Condition, Domain, Effect, GroundAtom, Init, Signature, Term, TypedName};
 
 /// A robot of the team.
 #[derive(Clone, Debug)]
@@ -44,6 +44,8 @@ pub struct Team {
     pub objects: Vec<TypedName>,
     /// Obstacles that can be named when a goal is out of reach.
     pub relaxations: Vec<Relaxation>,
+    /// The values of numeric functions at the start.
+    pub numbers: Vec<Init>,
     /// Facts by which the world itself says that a member has a skill, per action; none where the members'
     /// domains alone say so.
     pub skill_facts: BTreeMap<Name, Vec<GroundAtom>>,

@@ -1,5 +1,9 @@
 //! The transitions from phase to phase.
 
+use std::collections::BTreeSet;
+
+use lamma_pddl::ast::GroundAtom;
+use lamma_pddl::multi_agent::own_name;
 use lamma_protocol::message::{Command, EventKind, Order, Report};
 use lamma_protocol::{AgentId, Epoch, JobId, Output, Revision, StepIndex};
 
@@ -27,7 +31,11 @@ impl Coordinator {
     }
 
     pub(crate) fn cancel_job(&mut self) {
-        if let Phase::Decomposing(job) | Phase::Allocating(job) | Phase::Combining(job, _) = &self.phase {
+        if let Phase::Decomposing(job)
+        | Phase::Allocating(job)
+        | Phase::Combining(job, _)
+        | Phase::PlanningJointly(job) = &self.phase
+        {
             self.outputs.push_back(Output::Cancel(*job));
         }
     }
@@ -100,11 +108,12 @@ impl Coordinator {
         self.note_reached_on_the_way(plan, done);
         let base = self.history.iter().map(|a| a.start + 1.0).fold(0.0, f64::max);
         for step in plan.timeline.iter().filter(|s| s.index < done[s.member]) {
+            let robot = self.config.team.members[step.member].name.to_string();
             self.history.push(ActionResult {
                 start: base + step.start,
-                robot: self.config.team.members[step.member].name.to_string(),
-                action: step.act.action.clone(),
-                args: step.act.args.iter().skip(1).cloned().collect(),
+                action: own_name(&step.act.action, &robot).to_string(),
+                args: step.act.args.iter().skip(1).map(|a| own_name(a, &robot).to_string()).collect(),
+                robot,
             });
         }
     }
@@ -130,9 +139,11 @@ impl Coordinator {
                 Phase::Granting => self.try_leave_granting(),
                 Phase::Planning(_) => self.try_plan(),
                 Phase::Executing(_) => self.follow(),
-                Phase::Decomposing(_) | Phase::Allocating(_) | Phase::Combining(..) | Phase::Finished => {
-                    return;
-                }
+                Phase::Decomposing(_)
+                | Phase::Allocating(_)
+                | Phase::Combining(..)
+                | Phase::PlanningJointly(_)
+                | Phase::Finished => return,
             }
             if before == std::mem::discriminant(&self.phase) && epoch == self.epoch {
                 return;
@@ -150,6 +161,9 @@ impl Coordinator {
             return;
         }
         if self.roster.all_joined() && self.view.state().is_some() {
+            if let Err(why) = self.meet_team() {
+                return self.finish(OutcomeKind::Error, Some(why));
+            }
             self.event(EventKind::Note, crowd(self.roster.available().len()));
             self.begin_epoch();
         }
@@ -181,7 +195,7 @@ impl Coordinator {
             return self.begin_epoch();
         }
         if self.understanding.is_some() {
-            return self.allocate();
+            return self.plan_for_team();
         }
         let facts = self.view.state().unwrap_or_default();
         let job = self.spawn(CoordinatorJob::Understand { facts });
@@ -198,6 +212,7 @@ impl Coordinator {
         }
         let input = AllocateInput {
             cut: self.cut,
+            rule: self.config.rule,
             team: self.config.team.clone(),
             available: self.roster.available(),
             facts,
@@ -227,7 +242,11 @@ impl Coordinator {
                     self.event(EventKind::Note, format!("assuming {assumption}"));
                 }
                 self.understanding = Some(understanding);
-                if self.roster.lost() == self.granted_lost { self.allocate() } else { self.begin_epoch() }
+                if self.roster.lost() == self.granted_lost {
+                    self.plan_for_team()
+                } else {
+                    self.begin_epoch()
+                }
             }
             Understood::Ask(clarification) => {
                 let question = clarification.question.clone();
@@ -241,16 +260,7 @@ impl Coordinator {
     pub(crate) fn allocated(&mut self, allocation: Result<Allocation, NoAllocation>) {
         let allocation = match allocation {
             Ok(allocation) => allocation,
-            Err(NoAllocation::Infeasible(why)) => {
-                let lost: Vec<String> = self
-                    .roster
-                    .lost()
-                    .into_iter()
-                    .filter_map(|a| self.roster.lost_reason(a).map(|r| format!("{} {r}", self.name_of(a))))
-                    .collect();
-                let lost = if lost.is_empty() { String::new() } else { format!(" ({})", lost.join("; ")) };
-                return self.finish(OutcomeKind::Infeasible, Some(format!("{why}{lost}")));
-            }
+            Err(NoAllocation::Infeasible(why)) => return self.infeasible(&why),
             Err(NoAllocation::NotThisWay(why)) => return self.coarsen(OutcomeKind::GaveUp, why),
             Err(NoAllocation::GaveUp(why)) => return self.coarsen(OutcomeKind::GaveUp, why),
         };
@@ -270,6 +280,18 @@ impl Coordinator {
         self.enter(Phase::Planning(Box::new(round)));
     }
 
+    /// Proved out of reach; who is gone may be why.
+    pub(crate) fn infeasible(&mut self, why: &str) {
+        let lost: Vec<String> = self
+            .roster
+            .lost()
+            .into_iter()
+            .filter_map(|a| self.roster.lost_reason(a).map(|r| format!("{} {r}", self.name_of(a))))
+            .collect();
+        let lost = if lost.is_empty() { String::new() } else { format!(" ({})", lost.join("; ")) };
+        self.finish(OutcomeKind::Infeasible, Some(format!("{why}{lost}")));
+    }
+
     pub(crate) fn combined(&mut self, combined: Result<Box<Combined>, String>) {
         let Phase::Combining(_, mut round) = self.take_phase() else { return };
         let Combined { plan, end, packages, bound } = match combined {
@@ -278,13 +300,25 @@ impl Coordinator {
                 return self.finish(OutcomeKind::Error, Some(format!("the combined plan fails: {why}")));
             }
         };
+        if let Some(packages) = packages {
+            round.allocation.packages = packages;
+        }
+        self.carry_out(plan, round.allocation, end.facts, bound);
+    }
+
+    /// Hands the plan out, or ends with it where that is all that is wanted. `end` holds when it is done; no plan
+    /// from here is shorter than `bound`.
+    pub(crate) fn carry_out(
+        &mut self,
+        plan: TeamPlan,
+        allocation: Allocation,
+        end: BTreeSet<GroundAtom>,
+        bound: f64,
+    ) {
         if self.first_plan.is_none() {
             // Later plans start where the first has led: what is proved of them is not about the whole.
             self.lower_bound = Some(bound);
             self.first_plan = Some((plan.makespan, plan.timeline.len()));
-        }
-        if let Some(packages) = packages {
-            round.allocation.packages = packages;
         }
         self.event(
             EventKind::Note,
@@ -294,18 +328,18 @@ impl Coordinator {
                 plan.makespan
             ),
         );
-        self.allocation = Some(round.allocation.clone());
+        self.allocation = Some(allocation.clone());
         if self.config.solve_only {
             let everything: Vec<StepIndex> = plan.steps.iter().map(|s| StepIndex(s.len() as u32)).collect();
             self.record(&plan, &everything);
-            self.planned_state = Some(end.facts);
+            self.planned_state = Some(end);
             return self.finish(OutcomeKind::Success, None);
         }
         for agent in self.roster.alive().collect::<Vec<_>>() {
             self.direct(agent, Order::Execute(plan.steps[agent.index()].clone()));
         }
         let following = Following {
-            allocation: round.allocation,
+            allocation,
             told: vec![StepIndex(0); plan.steps.len()],
             plan,
             last_progress: self.now,
@@ -355,6 +389,7 @@ impl Coordinator {
             | Phase::Allocating(_)
             | Phase::Planning(_)
             | Phase::Combining(..)
+            | Phase::PlanningJointly(_)
             | Phase::Executing(_) => self.replan("the team has changed"),
         }
     }
@@ -372,10 +407,16 @@ impl Coordinator {
                 self.allocated(allocation);
             }
             (Phase::Combining(id, _), CoordinatorDone::Combined(plan)) if *id == job => self.combined(plan),
+            (Phase::PlanningJointly(id), CoordinatorDone::PlannedJointly(plan)) if *id == job => {
+                self.planned_jointly(plan);
+            }
             // The answer to a question that is no longer asked.
             (
                 _,
-                CoordinatorDone::Understood(_) | CoordinatorDone::Allocated(_) | CoordinatorDone::Combined(_),
+                CoordinatorDone::Understood(_)
+                | CoordinatorDone::Allocated(_)
+                | CoordinatorDone::Combined(_)
+                | CoordinatorDone::PlannedJointly(_),
             ) => {}
         }
     }

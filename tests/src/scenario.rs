@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use lamma_coordinator::result::RunResult;
 use lamma_coordinator::{
-    Coordinator, CoordinatorConfig, GoalGroup, GoalItem, Member, ScoreGoal, Subgoal, Team, Understanding,
+    AllocationRule, Coordinator, CoordinatorConfig, GoalGroup, GoalItem, Member, Mission, Patience,
+    ScoreGoal, Subgoal, Team, Understanding,
 };
 use lamma_pddl::ast::{Condition, Domain, Init, TypedName};
 use lamma_pddl::{Name, Source, parse_condition, parse_domain, parse_ground_atom};
@@ -125,6 +126,7 @@ impl Scenario {
             domain: Arc::new(project(&all)),
             objects: objects.clone(),
             relaxations: Vec::new(),
+            numbers: Vec::new(),
             skill_facts: Default::default(),
         });
         let condition = |text: &str| parse_condition(text).expect("the goal parses");
@@ -160,6 +162,7 @@ impl Scenario {
             pid: 1000 + index as u32,
             domain: Ok(self.team.members[index].domain.clone()),
             expansions: 20_000,
+            share: None,
         })
     }
 
@@ -183,14 +186,16 @@ impl Scenario {
     pub(crate) fn coordinator(&self) -> Coordinator {
         Coordinator::new(CoordinatorConfig {
             team: self.team.clone(),
-            given: Some(self.understanding.clone()),
+            mission: Mission::Divide(Some(self.understanding.clone())),
             score: None,
             reference: None,
+            rule: AllocationRule::Shortest,
             solve_only: false,
             expansions: 20_000,
             makespan: MakespanLimits::default(),
             time_limit_ms: 90_000,
             step_ms: 0,
+            patience: Patience::default(),
         })
         .expect("the team makes sense")
     }

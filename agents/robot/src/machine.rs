@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 use lamma_pddl::ast::Domain;
-use lamma_protocol::message::{Directive, Message, Order, Package, PackageReport, Report, Step};
+use lamma_protocol::message::{Directive, Message, Order, Package, PackageReport, Report, Share, Step};
 use lamma_protocol::{
     AgentId, Epoch, Frame, Input, JobId, Machine, Output, PackageId, Repeat, Revision, StepIndex, Tick, Topic,
 };
@@ -23,6 +23,8 @@ pub struct RobotConfig {
     pub domain: Result<Arc<Domain>, String>,
     /// Bound of one search, in expanded states.
     pub expansions: u64,
+    /// What it tells the coordinator of its own task when it joins, if that does not come from elsewhere.
+    pub share: Option<Share>,
 }
 
 /// What the robot is doing.
@@ -181,6 +183,7 @@ impl Robot {
             done,
             refused,
             broken: self.config.domain.as_ref().err().cloned(),
+            share: self.config.share.clone().filter(|_| self.epoch == Epoch(0)),
         };
         self.outputs.push_back(Output::Publish(Topic::Report(self.config.id), Message::Report(report)));
     }

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::world::Privacy;
+
 /// Teams of robots that plan, act and survive.
 #[derive(Debug, Parser)]
 #[command(name = "lamma", version, about, max_term_width = 100, subcommand_required = true)]
@@ -50,14 +52,22 @@ pub enum Command {
         /// Which shell.
         shell: clap_complete::Shell,
     },
-    /// A robot process (started by `lamma run`).
+    /// Write the folder of a run, to be started by hand on several hosts.
+    Prepare(PrepareArgs),
+    /// One host's part of a prepared run whose team is spread over several hosts.
+    Host(HostArgs),
+    /// What carries between hosts (started by `lamma host`).
     #[command(hide = true)]
+    Bridge(BridgeArgs),
+    /// Make what a team of robots on several hosts needs to know each other: `lamma new --secure DIR`.
+    New(NewArgs),
+    /// A Zenoh router that the processes of a run on several hosts meet at.
+    Router(RouterArgs),
+    /// A robot process (`lamma run` starts them; by hand with --bus zenoh).
     Robot(ChildArgs),
-    /// The coordinator process (started by `lamma run`).
-    #[command(hide = true)]
-    Coordinator(ChildArgs),
-    /// The simulator process (started by `lamma run`).
-    #[command(hide = true)]
+    /// The coordinator process (`lamma run` starts it; by hand with --bus zenoh it prints the outcome).
+    Coordinator(CoordinatorArgs),
+    /// The simulator process (`lamma run` starts it; by hand with --bus zenoh).
     Simulator(ChildArgs),
     /// A process of `lamma scale`.
     #[command(hide = true)]
@@ -77,13 +87,31 @@ pub enum ListWhat {
 #[derive(Debug, Args)]
 pub struct RunArgs {
     /// The instruction, in plain English.
-    pub instruction: String,
+    #[arg(required_unless_present_any = ["pddl", "codmap"], conflicts_with_all = ["pddl", "codmap"])]
+    pub instruction: Option<String>,
     /// The scene, such as FloorPlan6.
-    #[arg(long)]
-    pub scene: String,
+    #[arg(long, required_unless_present_any = ["pddl", "codmap"], conflicts_with_all = ["pddl", "codmap"])]
+    pub scene: Option<String>,
     /// The robots, by their names in the catalogue, separated by commas.
-    #[arg(long, value_delimiter = ',', required = true)]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        required_unless_present_any = ["pddl", "codmap"],
+        conflicts_with_all = ["pddl", "codmap"]
+    )]
     pub team: Vec<String>,
+    /// Instead of an instruction: a multi-agent PDDL task in one domain and one problem file. A classical task
+    /// is a team of one.
+    #[arg(long, num_args = 2, value_names = ["DOMAIN", "PROBLEM"])]
+    pub pddl: Option<Vec<PathBuf>>,
+    /// Instead of an instruction: a folder with domain-AGENT.pddl and problem-AGENT.pddl for each agent, who is
+    /// given only its own two.
+    #[arg(long, value_name = "DIR", conflicts_with = "pddl")]
+    pub codmap: Option<PathBuf>,
+    /// What leaves the agents of a factored task: all they know, for a coordinator they trust, or nothing with
+    /// a private name.
+    #[arg(long, value_enum, default_value = "trusted", requires = "codmap")]
+    pub privacy: Privacy,
     /// Options shared with other commands.
     #[command(flatten)]
     pub common: CommonArgs,
@@ -119,6 +147,10 @@ pub struct CommonArgs {
     /// Take the best reading of the instruction instead of asking.
     #[arg(long)]
     pub assume: bool,
+    /// Who decides which robot gets a sub-task: the shortest makespan, or the language model where it names
+    /// robots (to compare with).
+    #[arg(long, value_enum, default_value = "shortest")]
+    pub allocator: AllocatorArg,
     /// Give up after this many seconds.
     #[arg(long, default_value_t = 120.0, value_parser = seconds)]
     pub time_limit: f64,
@@ -139,6 +171,24 @@ pub struct CommonArgs {
     /// Let so many such events happen, drawn by the seed.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=100))]
     pub random_events: u32,
+    /// How long nobody may move before those who could are given up, in seconds.
+    #[arg(long, default_value_t = 4.0, value_parser = seconds)]
+    pub stall_limit: f64,
+    /// How long everybody has to join, in seconds.
+    #[arg(long, default_value_t = 15.0, value_parser = seconds)]
+    pub join_limit: f64,
+    /// Make the bus bad by design: loss=0.1,dup=0.1,reorder=0.1,corrupt=0.01,delay=20ms,partition=robot-1@2s+5s.
+    #[arg(long, value_name = "FAULTS")]
+    pub fault_bus: Option<lamma_bus::faulty::Plan>,
+}
+
+/// Who allocates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, serde::Serialize, serde::Deserialize)]
+pub enum AllocatorArg {
+    /// The allocator, for the shortest makespan.
+    Shortest,
+    /// The language model, taken as it is.
+    Lm,
 }
 
 /// Transports.
@@ -208,8 +258,18 @@ pub struct ValidateArgs {
 #[derive(Debug, Args)]
 pub struct BenchArgs {
     /// A task file, one JSON object a line.
-    #[arg(long, conflicts_with = "mat_thor", required_unless_present_any = ["mat_thor", "generated"])]
+    #[arg(long, conflicts_with_all = ["mat_thor", "codmap"], required_unless_present_any = ["mat_thor", "generated", "codmap"])]
     pub tasks: Option<PathBuf>,
+    /// A folder of multi-agent PDDL tasks, laid out as CoDMAP's: unfactored/DOMAIN/PROBLEM/ and
+    /// factored/DOMAIN/PROBLEM/, with reference_values.json if there is one.
+    #[arg(long, value_name = "DIR", conflicts_with = "mat_thor")]
+    pub codmap: Option<PathBuf>,
+    /// Carry out the factored tasks, one process per agent, instead of solving the unfactored ones.
+    #[arg(long, requires = "codmap")]
+    pub factored: bool,
+    /// With --factored: see `lamma run --help`.
+    #[arg(long, value_enum, default_value = "trusted", requires = "factored")]
+    pub privacy: Privacy,
     /// A folder of MAT-THOR task files, read as they were released.
     #[arg(long)]
     pub mat_thor: Option<PathBuf>,
@@ -302,18 +362,148 @@ pub enum RallyRole {
     Robots,
 }
 
-/// How a child process finds its run.
+/// How a process finds its run.
 #[derive(Debug, Args)]
 pub struct ChildArgs {
     /// The folder of the run.
     #[arg(long)]
     pub run_dir: PathBuf,
-    /// The shared memory of the run.
-    #[arg(long)]
-    pub scope: lamma_bus::iceoryx::Scope,
+    /// The transport between the processes: iceoryx2 on one host, zenoh between hosts.
+    #[arg(long, value_enum, default_value = "iceoryx2")]
+    pub bus: BusArg,
+    /// The shared memory of the run, for iceoryx2.
+    #[arg(long, required_if_eq("bus", "iceoryx2"))]
+    pub scope: Option<lamma_bus::iceoryx::Scope>,
+    /// Where to join, for zenoh.
+    #[command(flatten)]
+    pub network: NetworkArgs,
+    /// Started by a launcher: ends with it.
+    #[arg(long, hide = true)]
+    pub launched: bool,
     /// Which member of the team, for robots.
     #[arg(long, default_value_t = 0)]
     pub agent: u16,
+}
+
+/// Where to join a run over a network.
+#[derive(Clone, Debug, Args)]
+pub struct NetworkArgs {
+    /// The router, as Zenoh writes endpoints: tcp/HOST:PORT, tls/HOST:PORT, unixsock-stream/PATH.
+    #[arg(long, value_name = "ENDPOINT", required_if_eq("bus", "zenoh"))]
+    pub connect: Option<String>,
+    /// The name of the run on the network [default: the id in the run's folder].
+    #[arg(long, value_name = "ID")]
+    pub run_id: Option<String>,
+    /// The folder of certificates and keys that `lamma new --secure` has made, for tls.
+    #[arg(long, value_name = "DIR")]
+    pub identity: Option<PathBuf>,
+    /// The name of the certificate in that folder [default: the process's own, such as robot-0].
+    #[arg(long, value_name = "NAME", requires = "identity")]
+    pub identity_name: Option<String>,
+    /// How long to look for the router, in seconds.
+    #[arg(long, default_value_t = 30.0, value_parser = seconds)]
+    pub connect_limit: f64,
+}
+
+/// See [`Command::Coordinator`].
+#[derive(Debug, Args)]
+pub struct CoordinatorArgs {
+    /// As every process.
+    #[command(flatten)]
+    pub child: ChildArgs,
+    /// How to print the result, without a launcher.
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: Format,
+    /// Without a launcher: a robot that was there and has not been heard of for so many seconds is lost.
+    #[arg(long, default_value_t = 15.0, value_parser = seconds)]
+    pub lost_after: f64,
+}
+
+/// See [`Command::Prepare`].
+#[derive(Debug, Args)]
+pub struct PrepareArgs {
+    /// As for a run.
+    #[command(flatten)]
+    pub run: RunArgs,
+    /// Robots that live on another host, for `lamma host`: HOST=ROBOT+ROBOT; may be repeated.
+    #[arg(long, value_name = "HOST=ROBOTS")]
+    pub away: Vec<String>,
+}
+
+/// See [`Command::Host`].
+#[derive(Debug, Args)]
+pub struct HostArgs {
+    /// Which host of the run: `hub`, or a name given to `lamma prepare --away`.
+    pub name: String,
+    /// The folder of the run.
+    #[arg(long)]
+    pub run_dir: PathBuf,
+    /// For the hub: where the others join it, such as tcp/0.0.0.0:7447.
+    #[arg(long, value_name = "ENDPOINT")]
+    pub listen: Option<String>,
+    /// For the others: where the hub is, such as tcp/HUB:7447.
+    #[arg(long, value_name = "ENDPOINT", conflicts_with = "listen")]
+    pub connect: Option<String>,
+    /// How the hub prints the result.
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: Format,
+}
+
+/// See [`Command::Bridge`].
+#[derive(Debug, Args)]
+pub struct BridgeArgs {
+    /// The folder of the run.
+    #[arg(long)]
+    pub run_dir: PathBuf,
+    /// This host's shared memory.
+    #[arg(long)]
+    pub scope: lamma_bus::iceoryx::Scope,
+    /// This host's name.
+    #[arg(long)]
+    pub host: String,
+    /// Where the others join.
+    #[arg(long)]
+    pub listen: Option<String>,
+    /// Where to join.
+    #[arg(long)]
+    pub connect: Option<String>,
+    /// Started by a launcher.
+    #[arg(long, hide = true)]
+    pub launched: bool,
+}
+
+/// See [`Command::New`].
+#[derive(Debug, Args)]
+pub struct NewArgs {
+    /// Write an authority, one identity per process, and rules by which each may say only its own, to this folder.
+    #[arg(long, value_name = "DIR", required = true)]
+    pub secure: Option<PathBuf>,
+    /// How many robots the team has.
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pub agents: u16,
+    /// Names and addresses by which the router is reached; several with commas.
+    #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "localhost,127.0.0.1")]
+    pub host: Vec<String>,
+    /// For how many days the identities hold.
+    #[arg(long, default_value_t = 365, value_parser = clap::value_parser!(u16).range(1..=3650))]
+    pub days: u16,
+}
+
+/// See [`Command::Router`].
+#[derive(Debug, Args)]
+pub struct RouterArgs {
+    /// Where others join it: tcp/0.0.0.0:7447, tls/0.0.0.0:7447, unixsock-stream/PATH; several with commas.
+    #[arg(long, value_name = "ENDPOINT", value_delimiter = ',', required = true)]
+    pub listen: Vec<String>,
+    /// Other routers to join.
+    #[arg(long, value_name = "ENDPOINT", value_delimiter = ',')]
+    pub connect: Vec<String>,
+    /// The folder of certificates and keys that `lamma new --secure` has made, for tls.
+    #[arg(long, value_name = "DIR")]
+    pub identity: Option<PathBuf>,
+    /// Who may say what: a file as Zenoh's `access_control` [default: `rules.json5` of the identity's folder].
+    #[arg(long, value_name = "FILE")]
+    pub rules: Option<PathBuf>,
 }
 
 fn seconds(text: &str) -> Result<f64, String> {

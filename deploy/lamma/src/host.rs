@@ -8,13 +8,14 @@ use std::time::Instant;
 use lamma_bus::Bus;
 use lamma_bus::driver::{DriverError, End, Settings, Stop, drive};
 use lamma_bus::inproc::{Hub, Inproc};
-use lamma_domains::world::WorldSetup;
 use lamma_protocol::{Machine, Node};
 
 use crate::error::Failure;
 use crate::launch::{ProcessRecord, agents};
+use crate::process::join::behind_faults;
 use crate::process::{Parts, arbiter_parts, coordinator_parts, robot_parts};
 use crate::spec::RunSpec;
+use crate::world::World;
 
 pub use crate::process_host::ProcessHost;
 
@@ -55,8 +56,8 @@ pub struct InprocHost {
 
 impl InprocHost {
     /// Starts a thread for each machine.
-    pub fn start(spec: &Arc<RunSpec>, world: &Arc<WorldSetup>, folder: &Path) -> Result<Self, Failure> {
-        let hub = Hub::new(spec.team.len() as u16);
+    pub fn start(spec: &Arc<RunSpec>, world: &Arc<World>, folder: &Path) -> Result<Self, Failure> {
+        let hub = Hub::new(spec.team_size());
         let endpoint = |node| hub.open(node).ok_or_else(|| Failure::fault(format!("no endpoint for {node}")));
         let mut host = InprocHost {
             bus: endpoint(Node::Supervisor)?,
@@ -64,8 +65,10 @@ impl InprocHost {
             threads: Vec::new(),
             records: Vec::new(),
         };
+        let endpoint =
+            |node| -> Result<Box<dyn Bus + Send>, Failure> { behind_faults(endpoint(node)?, spec) };
         host.run(Node::Simulator, "simulator", endpoint(Node::Simulator)?, arbiter_parts(spec, world)?)?;
-        let parts = coordinator_parts(spec, world.clone())?;
+        let parts = coordinator_parts(spec, || Ok(world.clone()))?;
         host.run(Node::Coordinator, "coordinator", endpoint(Node::Coordinator)?, parts)?;
         for (agent, name) in agents(spec) {
             let parts = robot_parts(spec, folder, agent)?;
@@ -78,7 +81,7 @@ impl InprocHost {
         &mut self,
         node: Node,
         name: &str,
-        mut bus: Inproc,
+        mut bus: Box<dyn Bus + Send>,
         parts: Parts<M, M::Job, M::Done>,
     ) -> Result<(), Failure>
     where
@@ -90,7 +93,7 @@ impl InprocHost {
         let Parts { mut machine, workers } = parts;
         let thread = std::thread::Builder::new()
             .name(name.to_string())
-            .spawn(move || drive(&mut machine, &mut bus, settings, workers))
+            .spawn(move || drive(&mut machine, bus.as_mut(), settings, workers))
             .map_err(|e| Failure::fault(format!("no thread for {name}: {e}")))?;
         self.threads.push((node, thread));
         let role = match node {

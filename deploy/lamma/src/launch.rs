@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 
 use lamma_bus::{Bus, Received};
 use lamma_coordinator::result::{OutcomeKind, RunResult};
-use lamma_domains::world::WorldSetup;
 use lamma_protocol::message::{Command, Outcome};
 use lamma_protocol::{AgentId, Envelope, Message, Node, Revision, Topic};
 use serde::Serialize;
@@ -16,6 +15,7 @@ use crate::error::Failure;
 use crate::host::{Host, InprocHost, ProcessHost};
 use crate::spec::RunSpec;
 use crate::watch::Watcher;
+use crate::world::World;
 
 /// How long the team may take beyond its own limit before it counts as hung.
 const GRACE: Duration = Duration::from_secs(10);
@@ -54,36 +54,46 @@ pub struct Launched {
 /// Runs the spec. Whatever happens, nothing of the run is left when this returns.
 pub fn launch(
     spec: RunSpec,
-    world: Arc<WorldSetup>,
+    world: Arc<World>,
     bus: BusArg,
     folder: &Path,
     watcher: &mut dyn Watcher,
 ) -> Result<Launched, Failure> {
     let start = Instant::now();
     spec.write(folder, &world)?;
-    let limit = Duration::from_millis(spec.time_limit_ms) + GRACE;
+    let limit = limit(&spec);
     let spec = Arc::new(spec);
     if spec.workers.is_some() && bus != BusArg::Iceoryx2 {
         return Err(Failure::bad_input(
             "--workers is for --bus iceoryx2: the others host all robots their own way",
         ));
     }
-    let mut host: Box<dyn Host> = match bus {
-        BusArg::Iceoryx2 => Box::new(ProcessHost::start(&spec, folder)?),
+    let host: Box<dyn Host> = match bus {
         BusArg::Inproc => Box::new(InprocHost::start(&spec, &world, folder)?),
-        BusArg::Zenoh => {
-            return Err(Failure::bad_input(
-                "--bus zenoh is not built yet: use iceoryx2 (one host) or inproc (one process)",
-            ));
-        }
+        BusArg::Iceoryx2 | BusArg::Zenoh => Box::new(ProcessHost::start(&spec, bus, folder)?),
     };
+    let (mut result, processes) = supervise(host, limit, watcher)?;
+    spec.source.unveil(&mut result)?;
+    Ok(Launched { result, processes, folder: folder.to_path_buf(), elapsed: start.elapsed() })
+}
+
+/// Watches over a run that has been started, to its end, and ends everything whatever comes of it.
+pub fn supervise(
+    mut host: Box<dyn Host>,
+    limit: Duration,
+    watcher: &mut dyn Watcher,
+) -> Result<(RunResult, Vec<ProcessRecord>), Failure> {
     let watched = Supervisor::new(limit).watch(host.as_mut(), watcher);
     let processes = host.processes();
     let ended = host.end();
     let result = watched?;
     ended?;
-    let elapsed = start.elapsed();
-    Ok(Launched { result, processes, folder: folder.to_path_buf(), elapsed })
+    Ok((result, processes))
+}
+
+/// How long a run may take in all.
+pub fn limit(spec: &RunSpec) -> Duration {
+    Duration::from_millis(spec.time_limit_ms) + GRACE
 }
 
 /// The supervisor's side of the conversation.
@@ -199,5 +209,5 @@ impl Supervisor {
 
 /// The members of the team that a run has.
 pub fn agents(spec: &RunSpec) -> impl Iterator<Item = (AgentId, &str)> {
-    (0..).map(AgentId).zip(spec.team.iter().map(|m| m.name.as_str()))
+    (0..).map(AgentId).zip(spec.source.names())
 }

@@ -1,5 +1,6 @@
 //! The `lamma` command: launcher, supervisor, and every process of a team in one binary.
 
+mod batch;
 mod cli;
 mod commands;
 mod compat;
@@ -10,19 +11,24 @@ mod guard;
 mod host;
 mod json;
 mod launch;
+mod meeting;
 mod out;
 mod process;
 mod process_host;
 mod published;
 mod references;
+mod remote_host;
 mod results;
 mod scale;
+#[cfg(feature = "zenoh")]
+mod secure;
 mod show;
 mod spec;
 mod suite;
 mod supervise;
 mod table;
 mod watch;
+mod world;
 
 use std::process::ExitCode;
 
@@ -62,6 +68,11 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             clap_complete::generate(shell, &mut Cli::command(), "lamma", &mut std::io::stdout());
             Ok(exit::SUCCESS)
         }
+        Command::Prepare(args) => commands::prepare::prepare(&args),
+        Command::Host(args) => commands::host::host(&args),
+        Command::Bridge(args) => process::bridge::bridge(&args),
+        Command::New(args) => commands::new::new(&args),
+        Command::Router(args) => commands::router::router(&args),
         Command::Robot(args) => process::child::robot(&args),
         Command::Coordinator(args) => process::child::coordinator(&args),
         Command::Simulator(args) => process::child::simulator(&args),
@@ -71,6 +82,8 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
 fn format_of(command: &Command) -> Format {
     match command {
         Command::Run(args) | Command::Solve(args) => args.common.format,
+        Command::Host(args) => args.format,
+        Command::Coordinator(args) => args.format,
         Command::Bench(args) => args.common.format,
         Command::Scale(args) => args.format,
         Command::Plan(args) => args.format,

@@ -1,18 +1,21 @@
 //! A run, as it is written into its folder for the processes to find.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use lamma_bus::faulty::Plan;
+use lamma_coordinator::Patience;
 use lamma_coordinator::decompose::Instruction;
 use lamma_domains::goal::GoalEntry;
-use lamma_domains::robots::Robot;
-use lamma_domains::world::{ObjectSpec, Rules, WorldSetup, setup_with};
 use serde::{Deserialize, Serialize};
 
+use crate::cli::AllocatorArg;
 use crate::error::Failure;
 use crate::events::ScriptLine;
+use crate::world::{World, WorldSource};
 
 /// Everything the processes of a run need to know.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -21,20 +24,12 @@ pub struct RunSpec {
     pub id: String,
     /// Seed of everything drawn by chance.
     pub seed: u64,
-    /// The scene.
-    pub scene: String,
-    /// The team.
-    pub team: Vec<Robot>,
-    /// Replaces the scene's movable objects.
-    pub objects: Option<Vec<ObjectSpec>>,
-    /// Rules that differ from the usual.
-    pub rules: Rules,
-    /// What is wanted.
-    pub task: Task,
-    /// What the outcome is judged by, if not by what was understood.
-    pub score: Option<Vec<GoalEntry>>,
+    /// What it is about.
+    pub source: WorldSource,
     /// Best known makespan and steps.
     pub reference: Option<(f64, usize)>,
+    /// Who decides which robot gets a sub-task.
+    pub allocator: AllocatorArg,
     /// Stop when the plan is combined.
     pub solve_only: bool,
     /// The language model.
@@ -50,6 +45,15 @@ pub struct RunSpec {
     pub events: Vec<ScriptLine>,
     /// And so many events more, drawn by the seed.
     pub random_events: u32,
+    /// How long the others are waited for.
+    #[serde(default)]
+    pub patience: Patience,
+    /// Robots that live on other hosts, by the host's name.
+    #[serde(default)]
+    pub away: BTreeMap<String, Vec<u16>>,
+    /// Faults that are injected into every process's bus, as `--fault-bus` takes them.
+    #[serde(default)]
+    pub fault_bus: Option<String>,
     /// Host the robots in so many processes instead of one each.
     #[serde(default)]
     pub workers: Option<u16>,
@@ -83,19 +87,32 @@ pub struct LmSpec {
     pub lexicon: Option<PathBuf>,
 }
 
+/// The host of the coordinator and the simulator.
+pub const HUB: &str = "hub";
+
 /// Bound of one search in a robot or the coordinator, in expanded states.
 pub const EXPANSIONS: u64 = 200_000;
 
 impl RunSpec {
     /// The world of the run; the same for the same spec, in every process.
-    pub fn world(&self) -> Result<WorldSetup, Failure> {
-        setup_with(&self.scene, &self.team, self.objects.as_deref(), self.seed, &self.rules)
-            .map_err(Failure::bad_input)
+    pub fn world(&self) -> Result<World, Failure> {
+        self.source.world(self.seed)
+    }
+
+    /// How many robots the team has.
+    pub fn team_size(&self) -> u16 {
+        u16::try_from(self.source.names().len()).unwrap_or(u16::MAX)
+    }
+
+    /// How many robots share a process.
+    pub fn per_seat(&self) -> u16 {
+        self.workers.map_or(1, |workers| self.team_size().div_ceil(workers.max(1)).max(1))
     }
 
     /// The instruction, if the task is one.
     pub fn instruction(&self) -> Option<Instruction> {
-        match &self.task {
+        let WorldSource::Household(household) = &self.source else { return None };
+        match &household.task {
             Task::Instruction { text, assume } => Some(Instruction {
                 text: text.clone(),
                 assume: *assume,
@@ -105,16 +122,32 @@ impl RunSpec {
         }
     }
 
+    /// What is wrong with the bus by design.
+    pub fn faults(&self) -> Result<Option<Plan>, Failure> {
+        self.fault_bus.as_deref().map(str::parse).transpose().map_err(Failure::bad_input)
+    }
+
     /// Writes the spec and each robot's own domain into the folder of the run.
-    pub fn write(&self, folder: &Path, world: &WorldSetup) -> Result<(), Failure> {
+    pub fn write(&self, folder: &Path, world: &World) -> Result<(), Failure> {
         let robots = folder.join("robots");
         fs::create_dir_all(&robots).map_err(|e| Failure::io("create", &robots, &e))?;
         let write =
             |path: PathBuf, text: String| fs::write(&path, text).map_err(|e| Failure::io("write", &path, &e));
         let json = serde_json::to_string_pretty(self).map_err(|e| Failure::fault(e.to_string()))?;
         write(folder.join("run.json"), json)?;
-        for member in &world.members {
-            write(domain_file(folder, &member.name), member.domain.to_string())?;
+        match (&self.source, world) {
+            (_, World::Household(setup)) => {
+                for member in &setup.members {
+                    write(domain_file(folder, &member.name), member.domain.to_string())?;
+                }
+            }
+            // Each agent has its own files.
+            (WorldSource::Factored(_), World::Team(_)) => {}
+            (_, World::Team(task)) => {
+                for agent in &task.agents {
+                    write(domain_file(folder, agent.name.as_str()), task.domain_of(agent).to_string())?;
+                }
+            }
         }
         Ok(())
     }

@@ -8,17 +8,25 @@
 //! |---|---|
 //! | [`inproc`] | many endpoints in one process, for tests and single-process runs |
 //! | [`iceoryx`] | processes of one host over shared memory (iceoryx2); nothing big is copied |
+//! | `zenoh` | processes of one host or of many, over a network (feature `zenoh`) |
+//! | [`bridge`] | between the shared memory of two hosts, everything in few messages |
+//! | [`faulty`] | a bad network in front of any of them, for experiments |
 //! | [`driver`] | feeds a [`Machine`](lamma_protocol::Machine) from a bus, a clock and its worker threads |
 //! | [`process`] | what the processes of a run need from the operating system |
 //! | [`trace`] | inputs as JSON lines, to replay a run |
 
+pub mod bridge;
+pub mod content;
 pub mod driver;
 mod error;
+pub mod faulty;
 pub mod iceoryx;
 mod inbox;
 pub mod inproc;
 pub mod process;
 pub mod trace;
+#[cfg(feature = "zenoh")]
+pub mod zenoh;
 
 use std::task::Waker;
 use std::time::Duration;
@@ -66,6 +74,36 @@ pub trait Bus {
     fn publish(&mut self, topic: Topic, envelope: &Envelope) -> Result<(), PublishError> {
         let bytes = codec::encode(envelope).map_err(|source| PublishError::Encode { topic, source })?;
         self.publish_bytes(topic, &bytes)
+    }
+}
+
+impl<B: Bus + ?Sized> Bus for Box<B> {
+    fn node(&self) -> Node {
+        (**self).node()
+    }
+
+    fn publish_bytes(&mut self, topic: Topic, bytes: &[u8]) -> Result<(), PublishError> {
+        (**self).publish_bytes(topic, bytes)
+    }
+
+    fn publish_frame(&mut self, words: &[u64]) -> Result<(), PublishError> {
+        (**self).publish_frame(words)
+    }
+
+    fn receive(&mut self, sink: &mut dyn FnMut(Received<'_>)) -> usize {
+        (**self).receive(sink)
+    }
+
+    fn wait(&mut self, timeout: Option<Duration>) -> Result<bool, WaitError> {
+        (**self).wait(timeout)
+    }
+
+    fn waker(&self) -> Waker {
+        (**self).waker()
+    }
+
+    fn stats(&self) -> &Stats {
+        (**self).stats()
     }
 }
 

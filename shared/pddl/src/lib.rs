@@ -5,6 +5,7 @@ pub mod check;
 pub mod codes;
 pub mod diagnostic;
 mod layout;
+pub mod multi_agent;
 pub mod name;
 pub mod parse;
 mod print;

@@ -12,7 +12,7 @@ const MAGIC: [u8; 4] = *b"LAMM";
 const HEAD: usize = 10;
 
 /// The version of the wire format. Both ends must agree.
-pub const WIRE_VERSION: u16 = 1;
+pub const WIRE_VERSION: u16 = 2;
 
 /// The largest message, in bytes; larger ones are refused on both sides.
 pub const MAX_MESSAGE_BYTES: usize = 8 << 20;

@@ -189,6 +189,17 @@ pub struct Report {
     pub refused: Option<Refusal>,
     /// Set when the robot cannot work at all (its own domain does not parse, say).
     pub broken: Option<String>,
+    /// What it tells the coordinator of its own task; only while it joins (epoch 0).
+    pub share: Option<Share>,
+}
+
+/// One agent's own part of a factored task, as PDDL text: for the coordinator, which it trusts.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Share {
+    /// Its domain.
+    pub domain: String,
+    /// Its problem.
+    pub problem: String,
 }
 
 /// What became of a package.

@@ -1,6 +1,7 @@
 //! Topics: who says what to whom. One topic has one publisher.
 
 use std::fmt;
+use std::str::FromStr;
 
 use crate::id::{AgentId, Node};
 
@@ -84,9 +85,50 @@ impl fmt::Display for Topic {
     }
 }
 
+/// Text that names no [`Topic`].
+#[derive(Clone, Debug, thiserror::Error, PartialEq, Eq)]
+#[error("`{0}` is no topic: `command`, `world/frame`, `agent/3/report` and such are")]
+pub struct TopicParseError(String);
+
+impl FromStr for Topic {
+    type Err = TopicParseError;
+
+    fn from_str(text: &str) -> Result<Topic, TopicParseError> {
+        let agent = || {
+            let (agent, kind) = text.strip_prefix("agent/")?.split_once('/')?;
+            let agent = AgentId(agent.parse().ok()?);
+            Some(match kind {
+                "directive" => Topic::Directive(agent),
+                "report" => Topic::Report(agent),
+                "request" => Topic::Request(agent),
+                "ack" => Topic::Ack(agent),
+                _ => return None,
+            })
+        };
+        Ok(match text {
+            "command" => Topic::Command,
+            "outcome" => Topic::Outcome,
+            "grant" => Topic::Grant,
+            "world/vocabulary" => Topic::Vocabulary,
+            "world/frame" => Topic::Frame,
+            _ => return agent().ok_or_else(|| TopicParseError(text.into())),
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_topic_is_read_as_it_is_written() {
+        for topic in Topic::all(300) {
+            assert_eq!(topic.to_string().parse(), Ok(topic));
+        }
+        for foreign in ["", "commands", "agent/1", "agent/1/x", "agent/70000/ack", "agent//ack"] {
+            assert!(foreign.parse::<Topic>().is_err(), "{foreign}");
+        }
+    }
 
     #[test]
     fn every_topic_has_a_publisher_that_does_not_read_it_and_at_least_one_reader() {

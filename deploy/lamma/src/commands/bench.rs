@@ -1,14 +1,14 @@
 //! `lamma bench`: a suite of tasks, each a run of its own, and the metric table.
 
 use std::path::Path;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use std::time::Instant;
 
-use indicatif::{ProgressBar, ProgressStyle};
 use lamma_coordinator::result::{OutcomeKind, RunResult};
 use lamma_domains::robots::team;
 use serde_json::{Value, json};
 
+use crate::batch;
 use crate::cli::{BenchArgs, Format};
 use crate::commands::run::{check_lm, script, spec_from};
 use crate::compat::{self, Compat};
@@ -22,6 +22,7 @@ use crate::suite::{self, Entry, Suite};
 use crate::supervise::RunDir;
 use crate::table;
 use crate::watch::Silent;
+use crate::world::{Household, World, WorldSource};
 use crate::{events, published, references, results};
 
 /// One finished task.
@@ -38,6 +39,9 @@ pub struct Finished {
 
 /// Runs the suite; 0 if every task could be run, whatever came of it.
 pub fn bench(args: &BenchArgs) -> Result<u8, Failure> {
+    if let Some(folder) = &args.codmap {
+        return super::codmap::bench(args, folder);
+    }
     let mut suite = suite::read(args)?;
     if let Some(only) = &args.only {
         suite.entries.retain(|e| e.task.id.contains(only.as_str()));
@@ -51,7 +55,7 @@ pub fn bench(args: &BenchArgs) -> Result<u8, Failure> {
         let tasks: Vec<_> = suite.entries.into_iter().map(|e| e.task).collect();
         return references::write(file, &tasks);
     }
-    check_lm(&spec_from(&args.common, Task::Goal(Vec::new())))?;
+    check_lm(&args.common)?;
     for note in &suite.notes {
         eprintln!("{note}");
     }
@@ -64,46 +68,9 @@ pub fn bench(args: &BenchArgs) -> Result<u8, Failure> {
 
 fn run_all(args: &BenchArgs, suite: &Suite) -> Result<Vec<Finished>, Failure> {
     let folder = RunDir::create(args.common.run_dir.as_deref()).map_err(Failure::bad_input)?;
-    let bar = progress(suite.entries.len() as u64);
-    let next = Mutex::new(0usize);
-    let done: Mutex<Vec<Finished>> = Mutex::new(Vec::new());
-    let worker = || {
-        loop {
-            let index = {
-                let mut next = next.lock().unwrap_or_else(|e| e.into_inner());
-                let index = *next;
-                *next += 1;
-                index
-            };
-            let Some(entry) = suite.entries.get(index) else { return };
-            bar.set_message(entry.task.id.clone());
-            let finished = run_one(args, folder.path(), index, entry);
-            // A bar that nobody sees prints nothing either.
-            match bar.is_hidden() {
-                true => eprintln!("{}", line(entry, &finished.result)),
-                false => bar.println(line(entry, &finished.result)),
-            }
-            bar.inc(1);
-            done.lock().unwrap_or_else(|e| e.into_inner()).push(finished);
-        }
-    };
-    std::thread::scope(|scope| {
-        for _ in 0..args.jobs.clamp(1, 64) {
-            scope.spawn(worker);
-        }
-    });
-    bar.finish_and_clear();
-    let mut done = done.into_inner().unwrap_or_else(|e| e.into_inner());
-    done.sort_by_key(|f| f.index);
-    Ok(done)
-}
-
-fn progress(total: u64) -> ProgressBar {
-    let bar = ProgressBar::new(total);
-    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {elapsed} {msg}") {
-        bar.set_style(style);
-    }
-    bar
+    let names: Vec<String> = suite.entries.iter().map(|entry| entry.task.id.clone()).collect();
+    let work = |index: usize| run_one(args, folder.path(), index, &suite.entries[index]);
+    Ok(batch::each(&names, args.jobs, work, |index, f| line(&suite.entries[index], &f.result)))
 }
 
 fn line(entry: &Entry, result: &RunResult) -> String {
@@ -166,11 +133,14 @@ fn try_one(
     }
     let spec = spec(args, entry)?;
     let world = Arc::new(spec.world()?);
-    events::resolve(&spec.events, &world)?;
+    let World::Household(setup) = &*world else {
+        return Err(Failure::fault("a suite's task is a household's"));
+    };
+    events::resolve(&spec.events, setup)?;
     std::fs::create_dir_all(folder.join("logs")).map_err(|e| Failure::io("create", folder, &e))?;
     let launched = launch(spec, world.clone(), args.common.bus, folder, &mut Silent)?;
     let json = json::run(&launched, &args.common);
-    let compat = args.compat.then(|| compat::score(&world, &launched.result, &entry.truth)).flatten();
+    let compat = args.compat.then(|| compat::score(setup, &launched.result, &entry.truth)).flatten();
     Ok((launched.result, json, compat))
 }
 
@@ -181,14 +151,17 @@ fn spec(args: &BenchArgs, entry: &Entry) -> Result<RunSpec, Failure> {
     } else {
         Task::Instruction { text: task.instruction.clone(), assume: args.common.assume }
     };
-    let mut spec = spec_from(&args.common, wanted);
+    let household = Household {
+        scene: task.scene.clone(),
+        team: team(&task.team).map_err(Failure::bad_input)?,
+        objects: task.objects.clone(),
+        rules: task.rules.clone(),
+        task: wanted,
+        score: Some(task.goal.clone()),
+    };
+    let mut spec = spec_from(&args.common, WorldSource::Household(household));
     spec.id = task.id.clone();
-    spec.scene = task.scene.clone();
     spec.events = script(&args.common)?;
-    spec.team = team(&task.team).map_err(Failure::bad_input)?;
-    spec.objects = task.objects.clone();
-    spec.rules = task.rules.clone();
-    spec.score = Some(task.goal.clone());
     spec.reference = task.reference.map(|r| (f64::from(r.makespan), r.steps as usize));
     Ok(spec)
 }

@@ -2,10 +2,15 @@
 
 pub mod bench;
 pub mod clean;
+pub mod codmap;
 pub mod explain;
+pub mod host;
 pub mod list;
+pub mod new;
 pub mod pddl_task;
 pub mod plan;
+pub mod prepare;
+pub mod router;
 pub mod run;
 pub mod scale;
 pub mod validate;

@@ -1,11 +1,13 @@
 //! `lamma run` and `lamma solve`.
 
+use std::collections::BTreeMap;
 use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use lamma_coordinator::Patience;
 use lamma_domains::robots::{Member, team};
-use lamma_domains::world::{Rules, WorldSetup};
+use lamma_domains::world::Rules;
 
 use crate::cli::{CommonArgs, Format, RunArgs};
 use crate::error::Failure;
@@ -18,24 +20,47 @@ use crate::show;
 use crate::spec::{LmSpec, RunSpec, Task};
 use crate::supervise::RunDir;
 use crate::watch::{Lines, Watcher};
+use crate::world::{Household, World, WorldSource};
 
 /// Runs the instruction (or, for `solve_only`, stops at the plan) and prints the outcome.
 pub fn run(args: &RunArgs, solve_only: bool) -> Result<u8, Failure> {
-    let mut spec = spec_from(
-        &args.common,
-        Task::Instruction { text: instruction(&args.instruction)?, assume: args.common.assume },
-    );
-    spec.scene = args.scene.clone();
-    let members: Vec<Member> = args.team.iter().map(|name| Member::Named(name.trim().to_string())).collect();
-    spec.team = team(&members).map_err(Failure::bad_input)?;
+    let mut spec = spec_of(args)?;
     spec.solve_only = solve_only;
-    check_lm(&spec)?;
     let world = Arc::new(spec.world()?);
-    spec.events = script(&args.common)?;
-    events::resolve(&spec.events, &world)?;
+    if let World::Household(setup) = &*world {
+        events::resolve(&spec.events, setup)?;
+    }
     let launched = in_folder(spec, world, &args.common, lines(args.common.format).as_mut())?;
     print(&launched, &args.common)?;
     Ok(exit::of(launched.result.outcome))
+}
+
+/// The run that the arguments ask for, checked as far as that needs no world.
+pub fn spec_of(args: &RunArgs) -> Result<RunSpec, Failure> {
+    let mut spec = spec_from(&args.common, source(args)?);
+    check_lm(&args.common)?;
+    spec.events = script(&args.common)?;
+    Ok(spec)
+}
+
+/// What the run is about.
+fn source(args: &RunArgs) -> Result<WorldSource, Failure> {
+    if let Some([domain, problem]) = args.pddl.as_deref() {
+        return WorldSource::pddl(domain, problem);
+    }
+    if let Some(folder) = &args.codmap {
+        return WorldSource::factored(folder, args.privacy);
+    }
+    let text = instruction(args.instruction.as_deref().unwrap_or_default())?;
+    let members: Vec<Member> = args.team.iter().map(|name| Member::Named(name.trim().to_string())).collect();
+    Ok(WorldSource::Household(Household {
+        scene: args.scene.clone().unwrap_or_default(),
+        team: team(&members).map_err(Failure::bad_input)?,
+        objects: None,
+        rules: Rules::default(),
+        task: Task::Instruction { text, assume: args.common.assume },
+        score: None,
+    }))
 }
 
 fn instruction(text: &str) -> Result<String, Failure> {
@@ -45,25 +70,16 @@ fn instruction(text: &str) -> Result<String, Failure> {
     }
 }
 
-/// A spec with what the common options say; scene and team are left to the caller.
-pub fn spec_from(common: &CommonArgs, task: Task) -> RunSpec {
+/// A spec with what the common options say.
+pub fn spec_from(common: &CommonArgs, source: WorldSource) -> RunSpec {
     RunSpec {
         id: String::new(),
         seed: common.seed,
-        scene: String::new(),
-        team: Vec::new(),
-        objects: None,
-        rules: Rules::default(),
-        task,
-        score: None,
+        source,
         reference: None,
+        allocator: common.allocator,
         solve_only: false,
-        lm: LmSpec {
-            spec: common.lm.clone(),
-            url: common.lm_url.clone(),
-            model: common.lm_model.clone(),
-            lexicon: common.lexicon.clone(),
-        },
+        lm: lm_spec(common),
         // Bounded by the parser of the option.
         makespan_ms: common.makespan_limit.map(|s| (s * 1e3) as u64),
         time_limit_ms: (common.time_limit * 1e3) as u64,
@@ -71,6 +87,12 @@ pub fn spec_from(common: &CommonArgs, task: Task) -> RunSpec {
         events: Vec::new(),
         random_events: common.random_events,
         workers: common.workers,
+        patience: Patience {
+            join_ms: (common.join_limit * 1e3) as u64,
+            stall_ms: (common.stall_limit * 1e3) as u64,
+        },
+        away: BTreeMap::new(),
+        fault_bus: common.fault_bus.as_ref().map(ToString::to_string),
     }
 }
 
@@ -80,22 +102,27 @@ pub fn script(common: &CommonArgs) -> Result<Vec<events::ScriptLine>, Failure> {
 }
 
 /// A wrong `--lm` is the user's mistake and is told before anything starts.
-pub fn check_lm(spec: &RunSpec) -> Result<(), Failure> {
-    crate::process::language_model(spec).map(drop)
+pub fn check_lm(common: &CommonArgs) -> Result<(), Failure> {
+    crate::process::language_model(&lm_spec(common), common.seed).map(drop)
+}
+
+fn lm_spec(common: &CommonArgs) -> LmSpec {
+    LmSpec {
+        spec: common.lm.clone(),
+        url: common.lm_url.clone(),
+        model: common.lm_model.clone(),
+        lexicon: common.lexicon.clone(),
+    }
 }
 
 /// Makes the run's folder and launches.
 pub fn in_folder(
     mut spec: RunSpec,
-    world: Arc<WorldSetup>,
+    world: Arc<World>,
     common: &CommonArgs,
     watcher: &mut dyn Watcher,
 ) -> Result<Launched, Failure> {
-    let folder = RunDir::create(common.run_dir.as_deref()).map_err(Failure::bad_input)?;
-    if folder.path().join("run.json").exists() {
-        let path = folder.path().display();
-        return Err(Failure::bad_input(format!("{path} holds a run already: choose another --run-dir")));
-    }
+    let folder = new_folder(common)?;
     spec.id = folder.id().to_string();
     let path: PathBuf = folder.path().to_path_buf();
     let launched = launch(spec, world, common.bus, &path, watcher)?;
@@ -105,8 +132,18 @@ pub fn in_folder(
     Ok(launched)
 }
 
+/// A folder that holds no run yet.
+pub fn new_folder(common: &CommonArgs) -> Result<RunDir, Failure> {
+    let folder = RunDir::create(common.run_dir.as_deref()).map_err(Failure::bad_input)?;
+    if folder.path().join("run.json").exists() {
+        let path = folder.path().display();
+        return Err(Failure::bad_input(format!("{path} holds a run already: choose another --run-dir")));
+    }
+    Ok(folder)
+}
+
 /// Progress goes to standard output with the rest, or to standard error where that is kept for JSON.
-fn lines(format: Format) -> Box<dyn Watcher> {
+pub fn lines(format: Format) -> Box<dyn Watcher> {
     match format {
         Format::Text => Box::new(Lines::new(anstream::stdout())),
         Format::Json if std::io::stderr().is_terminal() => Box::new(Lines::new(anstream::stderr())),

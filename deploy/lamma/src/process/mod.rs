@@ -3,7 +3,9 @@
 //! Each `…_parts` builds a machine and its workers from the spec; whether they then run as a process over
 //! shared memory or as a thread is the caller's affair.
 
+pub mod bridge;
 pub mod child;
+pub mod join;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -13,19 +15,26 @@ use std::time::{Duration, Instant};
 use lamma_bus::driver::Worker;
 use lamma_coordinator::decompose::{decompose, given, score_goal};
 use lamma_coordinator::house::team;
-use lamma_coordinator::{Coordinator, CoordinatorConfig, CoordinatorDone, CoordinatorJob, Understood};
+use lamma_coordinator::{
+    AllocationRule, Coordinator, CoordinatorConfig, CoordinatorDone, CoordinatorJob, Mission, ScoreGoal,
+    Team, Understanding, Understood,
+};
 use lamma_domains::world::WorldSetup;
 use lamma_lm::LanguageModel;
 use lamma_pddl::ast::Domain;
+use lamma_pddl::multi_agent::{Part, TeamTask};
 use lamma_pddl::{Name, Source, check_domain, parse_domain};
 use lamma_planner::MakespanLimits;
 use lamma_protocol::AgentId;
+use lamma_protocol::message::Share;
 use lamma_robot::{Robot, RobotConfig, RobotDone, RobotJob};
 use lamma_simulator::{AgentSpec, Arbiter, WorldConfig};
 
+use crate::cli::AllocatorArg;
 use crate::error::Failure;
 use crate::events;
-use crate::spec::{EXPANSIONS, RunSpec, Task, domain_file};
+use crate::spec::{EXPANSIONS, LmSpec, RunSpec, Task, domain_file};
+use crate::world::{AgentFiles, Privacy, World, WorldSource};
 
 /// A machine and the workers that do its long work.
 pub struct Parts<M, Job, Done> {
@@ -41,18 +50,20 @@ pub fn robot_parts(
     folder: &Path,
     agent: AgentId,
 ) -> Result<Parts<Robot, RobotJob, RobotDone>, Failure> {
-    let member = spec.team.get(agent.index()).ok_or_else(|| {
-        Failure::bad_input(format!(
-            "the team of this run has {} robots, not {}",
-            spec.team.len(),
-            agent.0 + 1
-        ))
+    let names = spec.source.names();
+    let name = names.get(agent.index()).ok_or_else(|| {
+        Failure::bad_input(format!("the team of this run has {} robots, not {}", names.len(), agent.0 + 1))
     })?;
+    let (domain, share) = match &spec.source {
+        WorldSource::Household(_) | WorldSource::Pddl(_) => (own_domain(folder, name), None),
+        WorldSource::Factored(files) => own_files(&files.agents[agent.index()], files.privacy),
+    };
     let machine = Robot::new(RobotConfig {
         id: agent,
         pid: std::process::id(),
-        domain: own_domain(folder, &member.name).map(Arc::new),
+        domain: domain.map(Arc::new),
         expansions: EXPANSIONS,
+        share,
     });
     Ok(Parts { machine, workers: vec![planner()] })
 }
@@ -67,6 +78,19 @@ pub fn planner() -> Worker<RobotJob, RobotDone> {
     })
 }
 
+/// What an agent of a factored task has: its own two files. Of them it shares what its privacy allows.
+fn own_files(files: &AgentFiles, privacy: Privacy) -> (Result<Domain, String>, Option<Share>) {
+    let shared = |part: &Part| match privacy {
+        Privacy::Trusted => files.text(),
+        Privacy::Strict => Ok((part.domain.to_string(), part.problem().to_string())),
+    };
+    let both = files.part_for(privacy).and_then(|part| Ok((shared(&part)?, part.domain)));
+    match both {
+        Ok(((domain, problem), own)) => (Ok(own), Some(Share { domain, problem })),
+        Err(failure) => (Err(failure.text), None),
+    }
+}
+
 fn own_domain(folder: &Path, name: &str) -> Result<Domain, String> {
     let path = domain_file(folder, name);
     let text = std::fs::read_to_string(&path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;
@@ -77,14 +101,23 @@ fn own_domain(folder: &Path, name: &str) -> Result<Domain, String> {
 }
 
 /// The simulator.
-pub fn arbiter_parts(spec: &RunSpec, world: &WorldSetup) -> Result<Parts<Arbiter, (), ()>, Failure> {
+pub fn arbiter_parts(spec: &RunSpec, world: &World) -> Result<Parts<Arbiter, (), ()>, Failure> {
+    let config = match world {
+        World::Household(world) => household_world(spec, world)?,
+        World::Team(task) => task_world(spec, task),
+    };
+    let machine = Arbiter::new(config).map_err(Failure::fault)?;
+    Ok(Parts { machine, workers: Vec::new() })
+}
+
+fn household_world(spec: &RunSpec, world: &WorldSetup) -> Result<WorldConfig, Failure> {
+    let mut script = spec.events.clone();
+    script.extend(events::random(world, spec.random_events, spec.seed));
     let agents = world.members.iter().map(|m| AgentSpec {
         name: Name::new(&m.name),
         skills: m.domain.actions.iter().map(|a| a.name.clone()).collect(),
     });
-    let mut script = spec.events.clone();
-    script.extend(events::random(world, spec.random_events, spec.seed));
-    let machine = Arbiter::new(WorldConfig {
+    Ok(WorldConfig {
         domain: world.domain.clone(),
         objects: world.objects.clone(),
         init: world.init.clone(),
@@ -93,41 +126,110 @@ pub fn arbiter_parts(spec: &RunSpec, world: &WorldSetup) -> Result<Parts<Arbiter
         step_ms: spec.step_ms,
         events: events::resolve(&script, world)?,
     })
-    .map_err(Failure::fault)?;
-    Ok(Parts { machine, workers: Vec::new() })
+}
+
+fn task_world(spec: &RunSpec, task: &TeamTask) -> WorldConfig {
+    let agents = task
+        .agents
+        .iter()
+        .map(|agent| AgentSpec { name: agent.name.clone(), skills: agent.actions.iter().cloned().collect() });
+    WorldConfig {
+        domain: task.domain.clone(),
+        objects: task.objects.clone(),
+        init: task.init.clone(),
+        agents: agents.collect(),
+        // PDDL says nothing about what an agent lets go of.
+        on_lost: None,
+        step_ms: spec.step_ms,
+        events: Vec::new(),
+    }
+}
+
+/// What the coordinator is there for, who acts, and what the outcome is judged by.
+struct Briefing {
+    team: Team,
+    mission: Mission,
+    score: Option<ScoreGoal>,
+    /// For the language model.
+    household: Option<Arc<World>>,
+}
+
+/// `world` is asked for only by a coordinator that may see it.
+fn briefing(
+    spec: &RunSpec,
+    world: impl FnOnce() -> Result<Arc<World>, Failure>,
+) -> Result<Briefing, Failure> {
+    match &spec.source {
+        WorldSource::Household(household) => {
+            let world = world()?;
+            let World::Household(setup) = &*world else {
+                return Err(Failure::fault("a household's world is no PDDL task"));
+            };
+            let given = match &household.task {
+                Task::Goal(entries) => Some(given(setup, entries).map_err(Failure::bad_input)?),
+                Task::Instruction { .. } => None,
+            };
+            let score = household.score.as_ref().map(|entries| score_goal(setup, entries));
+            Ok(Briefing {
+                team: team(setup),
+                mission: Mission::Divide(given),
+                score: score.transpose().map_err(Failure::bad_input)?,
+                household: Some(world.clone()),
+            })
+        }
+        WorldSource::Pddl(_) => {
+            let world = world()?;
+            let World::Team(task) = &*world else {
+                return Err(Failure::fault("a PDDL task's world is no household"));
+            };
+            let names: Vec<Name> = task.agents.iter().map(|agent| agent.name.clone()).collect();
+            Ok(Briefing {
+                team: Team::of_task(task, &names),
+                mission: Mission::Joint(Understanding::of_goal(&task.goal)),
+                score: None,
+                household: None,
+            })
+        }
+        WorldSource::Factored(_) => Ok(Briefing {
+            team: Team::of_names(spec.source.names().into_iter().map(Name::new)),
+            mission: Mission::JointAsTold,
+            score: None,
+            household: None,
+        }),
+    }
 }
 
 /// The coordinator with its language model.
 pub fn coordinator_parts(
     spec: &RunSpec,
-    world: Arc<WorldSetup>,
+    world: impl FnOnce() -> Result<Arc<World>, Failure>,
 ) -> Result<Parts<Coordinator, CoordinatorJob, CoordinatorDone>, Failure> {
-    let understanding = match &spec.task {
-        Task::Goal(entries) => Some(given(&world, entries).map_err(Failure::bad_input)?),
-        Task::Instruction { .. } => None,
-    };
-    let score = match &spec.score {
-        Some(entries) => Some(score_goal(&world, entries).map_err(Failure::bad_input)?),
-        None => None,
-    };
+    let Briefing { team, mission, score, household } = briefing(spec, world)?;
     let machine = Coordinator::new(CoordinatorConfig {
-        team: Arc::new(team(&world)),
-        given: understanding,
+        team: Arc::new(team),
+        mission,
         score,
         reference: spec.reference,
+        rule: match spec.allocator {
+            AllocatorArg::Shortest => AllocationRule::Shortest,
+            AllocatorArg::Lm => AllocationRule::AsAdvised,
+        },
         solve_only: spec.solve_only,
         expansions: EXPANSIONS,
         makespan: makespan_limits(spec),
         time_limit_ms: spec.time_limit_ms,
         step_ms: spec.step_ms,
+        patience: spec.patience,
     })
     .map_err(Failure::fault)?;
-    let mut model = language_model(spec)?;
+    let mut model = language_model(&spec.lm, spec.seed)?;
     let instruction = spec.instruction();
     let work = move |job: CoordinatorJob, cancel: &AtomicBool| {
-        let understand = |facts, cancel: &AtomicBool| match &instruction {
-            Some(instruction) => decompose(model.as_mut(), &world, &facts, instruction, cancel),
-            None => Understood::Failed("this run has no instruction".into()),
+        let understand = |facts, cancel: &AtomicBool| match (&instruction, household.as_deref()) {
+            (Some(instruction), Some(World::Household(setup))) => {
+                decompose(model.as_mut(), setup, &facts, instruction, cancel)
+            }
+            _ => Understood::Failed("this run has no instruction".into()),
         };
         job.run(understand, cancel)
     };
@@ -146,13 +248,13 @@ fn makespan_limits(spec: &RunSpec) -> MakespanLimits {
 }
 
 /// The language model of the run. Its key, if it needs one, comes from the environment alone.
-pub fn language_model(spec: &RunSpec) -> Result<Box<dyn LanguageModel>, Failure> {
+pub fn language_model(lm: &LmSpec, seed: u64) -> Result<Box<dyn LanguageModel>, Failure> {
     let options = lamma_lm::Options {
-        base_url: spec.lm.url.clone(),
-        model: spec.lm.model.clone(),
-        seed: spec.seed,
-        lexicon: spec.lm.lexicon.clone(),
+        base_url: lm.url.clone(),
+        model: lm.model.clone(),
+        seed,
+        lexicon: lm.lexicon.clone(),
         ..lamma_lm::Options::default()
     };
-    lamma_lm::from_spec(&spec.lm.spec, &options).map_err(Failure::bad_input)
+    lamma_lm::from_spec(&lm.spec, &options).map_err(Failure::bad_input)
 }

@@ -70,8 +70,13 @@ fn robots(args: &RallyArgs) -> Result<(), Failure> {
     let first = AgentId(args.agent);
     let domain = Rally::domain(&args.run_dir).map(Arc::new);
     let robot = |id| {
-        let config =
-            RobotConfig { id, pid: std::process::id(), domain: domain.clone(), expansions: EXPANSIONS };
+        let config = RobotConfig {
+            id,
+            pid: std::process::id(),
+            domain: domain.clone(),
+            expansions: EXPANSIONS,
+            share: None,
+        };
         (Node::Robot(id), Robot::new(config))
     };
     let mut robots: Vec<(Node, Robot)> = args.scope.seat_mates(first).map(AgentId).map(robot).collect();

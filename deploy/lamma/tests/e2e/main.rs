@@ -8,4 +8,7 @@ mod faults;
 mod planner;
 mod runs;
 mod scale;
+mod team_tasks;
 mod tools;
+#[cfg(feature = "zenoh")]
+mod zenoh;

@@ -31,6 +31,8 @@ use thiserror::Error;
 pub use endpoint::Endpoint;
 pub use scope::{Scope, ScopeParseError};
 pub use services::Run;
+#[cfg(feature = "zenoh")]
+pub(crate) use sweep::Claim;
 pub use sweep::{SweepError, left_over, sweep, sweep_stale};
 
 /// Why the shared memory of a run, or an endpoint on it, could not be opened.

@@ -41,12 +41,18 @@ pub struct SweepError {
 
 /// The right to a run's memory: while it is held, no other process takes it for left over.
 #[derive(Debug)]
-pub(super) struct Claim {
-    pub(super) scope: Scope,
+pub(crate) struct Claim {
+    pub(crate) scope: Scope,
     _lock: File,
 }
 
 impl Claim {
+    /// Makes a folder for something else than shared memory, found and swept the same way.
+    #[cfg(feature = "zenoh")]
+    pub(crate) fn bare() -> Result<Claim, OpenError> {
+        Claim::new(Layout { agents: 0, per_seat: 1 })
+    }
+
     /// Makes a new scope for a run of this shape, with its folder.
     pub(super) fn new(layout: Layout) -> Result<Claim, OpenError> {
         let mut tried = Vec::new();

@@ -1,7 +1,9 @@
 //! One suite of promises, run on every transport.
 
+mod bad_network;
 mod suite;
 
+use lamma_bus::faulty::{FaultyBus, Plan};
 use lamma_bus::iceoryx::{Endpoint, Run, Scope, sweep};
 use lamma_bus::inproc::{Hub, Inproc};
 use lamma_protocol::Node;
@@ -10,6 +12,9 @@ use lamma_protocol::Node;
 trait Fixture: Sync {
     /// Its endpoints.
     type Endpoint: lamma_bus::Bus;
+    /// Whether what was published can be received when `publish` returns. Where it is still on its way, a reader
+    /// that looks early sees more of what is replaced.
+    const IMMEDIATE: bool = true;
     /// The bus of a team of `agents`.
     fn new(agents: u16) -> Self;
     /// The endpoint of `node`.
@@ -67,6 +72,34 @@ impl Drop for IceoryxFixture {
     }
 }
 
+#[cfg(feature = "zenoh")]
+struct ZenohFixture {
+    join: lamma_bus::zenoh::Join,
+    _router: lamma_bus::zenoh::Router,
+}
+
+#[cfg(feature = "zenoh")]
+impl Fixture for ZenohFixture {
+    type Endpoint = lamma_bus::zenoh::Endpoint;
+    const IMMEDIATE: bool = false;
+
+    fn new(agents: u16) -> Self {
+        let router = lamma_bus::zenoh::Router::local().expect("a router");
+        let join = lamma_bus::zenoh::Join {
+            run: "conformance".parse().expect("a run's id"),
+            agents,
+            connect: router.endpoint(),
+            identity: None,
+            patience: std::time::Duration::from_secs(5),
+        };
+        ZenohFixture { join, _router: router }
+    }
+
+    fn open(&self, node: Node) -> Self::Endpoint {
+        lamma_bus::zenoh::Endpoint::open(&self.join, node).expect("an endpoint")
+    }
+}
+
 /// Every promise of the suite as a test of one fixture.
 macro_rules! conformance {
     ($name:ident, $fixture:ty) => {
@@ -85,6 +118,14 @@ macro_rules! conformance {
     };
     ($name:ident, $fixture:ty, $($test:ident)*) => {
         mod $name {
+            #[test]
+            fn levels_converge_through_a_bad_network() {
+                super::bad_network::levels_converge::<$fixture>();
+            }
+            #[test]
+            fn a_partition_swallows_and_heals() {
+                super::bad_network::a_partition_heals::<$fixture>();
+            }
             $(#[test]
             fn $test() {
                 super::suite::$test::<$fixture>();
@@ -93,5 +134,24 @@ macro_rules! conformance {
     };
 }
 
+/// Any of them behind a [`FaultyBus`] that injects nothing: it must not be noticed.
+struct Behind<F>(F);
+
+impl<F: Fixture> Fixture for Behind<F> {
+    type Endpoint = FaultyBus<F::Endpoint>;
+    const IMMEDIATE: bool = F::IMMEDIATE;
+
+    fn new(agents: u16) -> Self {
+        Behind(F::new(agents))
+    }
+
+    fn open(&self, node: Node) -> Self::Endpoint {
+        FaultyBus::new(self.0.open(node), Plan::default(), 0)
+    }
+}
+
 conformance!(inproc, super::InprocFixture);
+conformance!(inproc_behind_a_faultless_network, super::Behind<super::InprocFixture>);
 conformance!(iceoryx, super::IceoryxFixture);
+#[cfg(feature = "zenoh")]
+conformance!(zenoh, super::ZenohFixture);
