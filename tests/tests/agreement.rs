@@ -208,11 +208,7 @@ fn worlds() -> Vec<(&'static str, Vec<Robot>, Option<&'static str>, Rules)> {
     let mut half = mixed.clone();
     half[0].skills.retain(|s| s != "PickupObject" && s != "SwitchOn");
     half[1].skills.retain(|s| s != "PutObject" && s != "OpenObject");
-    let own = Rules {
-        knife_free: true,
-        exclusive: vec!["Fridge".into(), "CounterTop_1".into()],
-        ..Rules::default()
-    };
+    let own = Rules { knife_free: true, exclusive: vec!["Fridge".into(), "CounterTop_1".into()] };
     vec![
         ("FloorPlan6", mixed.clone(), Some(KITCHEN), Rules::default()),
         ("FloorPlan6", weak.clone(), Some(KITCHEN), Rules::default()),

@@ -62,12 +62,6 @@ fn wrong_input_is_told_with_place_and_cure() {
             20,
             &["gpt", "offline"],
         ),
-        case(
-            "zenoh is not there yet",
-            &["run", README, "--scene", "FloorPlan6", "--team", "robot1", "--bus", "zenoh"],
-            20,
-            &["zenoh", "iceoryx2"],
-        ),
         case("unknown command", &["rnu"], 20, &["rnu"]),
         case("missing domain file", &["plan", "nowhere.pddl", &problem], 20, &["nowhere.pddl"]),
         case("a folder for a file", &["plan", ".", &problem], 20, &["cannot read"]),
