@@ -80,6 +80,8 @@ fn acting(
     let marked = marked.or_else(|| action.params.iter().find(only).map(|param| param.name.clone()));
     let at = match marked {
         Some(name) => action.params.iter().position(|param| param.name == name),
+        // Whoever is named outright acts: a first parameter beside it is another, as the receiver of a message.
+        None if names_outright(agent, &action) => None,
         None => action.params.first().filter(|p| universe.of(&p.types).any(|o| o == agent)).map(|_| 0),
     };
     let param = match at {
@@ -95,6 +97,11 @@ fn acting(
     let body = AsVariable { agent, variable: param.name.clone() }.body(&action);
     action.params.insert(0, param);
     Action { params: action.params, ..body }
+}
+
+/// Whether the action speaks of the agent by name.
+fn names_outright(agent: &Name, action: &Action) -> bool {
+    AsVariable { agent, variable: agent.clone() }.body(action) != *action
 }
 
 /// `drive` for `drive_t1` of `t1`, unless there is a `drive` too.
