@@ -5,13 +5,14 @@ use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::Condition;
 use lamma_planner::interpreter::{GroundCondition, Interpreter, WorldState};
-use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder};
+use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder_with};
 use lamma_planner::{MakespanLimits, Schedule};
 
 use crate::allocation::PackageSpec;
 use crate::bound::JointTask;
 use crate::combine::{TeamPlan, team_plan};
 use crate::merge::Merger;
+use crate::sequence::{Ordered, milestones, relied_on};
 use crate::team::Team;
 
 /// What may be done about a plan.
@@ -21,11 +22,19 @@ pub struct Shorten {
     pub available: Vec<usize>,
     /// A proved lower bound of the makespan.
     pub bound: f64,
-    /// The sub-tasks' goals, if all of them shall hold at the end and none was asked to follow another: only
-    /// then may the steps be chosen anew.
-    pub subgoals: Option<Vec<Condition>>,
+    /// The sub-tasks, if all of them shall hold at the end: only then may the steps be chosen anew.
+    pub wanted: Option<Vec<Wanted>>,
     /// How much may be spent.
     pub limits: MakespanLimits,
+}
+
+/// A sub-task as a schedule sees it.
+#[derive(Clone, Debug)]
+pub struct Wanted {
+    /// What holds when it is done, and from then on.
+    pub goal: Condition,
+    /// Sub-tasks it was asked to follow, by index.
+    pub after: Vec<usize>,
 }
 
 /// The plan to carry out and what is known about its makespan.
@@ -58,15 +67,19 @@ pub fn shorten(
     }
     let facts = &merger.initial.facts;
     let Ok(joint) = JointTask::new(team, &how.available, facts, goal) else { return combined };
+    let wanted: Option<Vec<Ordered>> =
+        how.wanted.iter().flatten().map(|w| Ordered::new(interpreter, w)).collect();
+    let Some(wanted) = wanted else { return combined };
+    let milestones = milestones(&joint, &merger.initial, &wanted);
     let (from, below) = (how.bound.ceil() as u32, combined.plan.makespan.ceil() as u32);
     // Where steps may not be chosen anew, only the bound is of use, and it is found on the way up.
-    let below = how.subgoals.is_some().then_some(below);
-    let Some(found) = joint.shortest(from, below, &how.limits, cancel) else { return combined };
+    let below = how.wanted.is_some().then_some(below);
+    let Some(found) = joint.shortest(&milestones, from, below, &how.limits, cancel) else { return combined };
     let bound = found.lower_bound.map_or(how.bound, f64::from);
     // A bound above a plan that is known would be a fault of the proof; never print one.
     combined.bound = bound.min(combined.plan.makespan).max(how.bound);
-    if let (Some(schedule), Some(subgoals)) = (found.schedule, &how.subgoals) {
-        let shorter = replan(team, interpreter, &joint, &merger.initial, &schedule, goal, subgoals);
+    if let Some(schedule) = found.schedule.filter(|_| how.wanted.is_some()) {
+        let shorter = replan(team, interpreter, &joint, &merger.initial, &schedule, goal, &wanted);
         if let Some((plan, end, packages)) = shorter
             && plan.makespan < combined.plan.makespan
         {
@@ -85,7 +98,7 @@ fn replan(
     initial: &WorldState,
     schedule: &Schedule,
     goal: &Condition,
-    subgoals: &[Condition],
+    wanted: &[Ordered],
 ) -> Option<(TeamPlan, WorldState, Vec<PackageSpec>)> {
     let mut merger = Merger::new(initial.clone());
     for operator in schedule.operators() {
@@ -97,14 +110,14 @@ fn replan(
     if !interpreter.holds(&merger.state, &ground) {
         return None;
     }
-    let order = deorder(interpreter, initial, merger.steps.clone(), &ground, &[]).ok()?;
+    let relied_on = relied_on(interpreter, initial, &merger.steps, wanted)?;
+    let order = deorder_with(interpreter, initial, merger.steps.clone(), &ground, &[], &relied_on).ok()?;
     let mut packages = Vec::new();
-    for (index, subgoal) in subgoals.iter().enumerate() {
-        let condition = interpreter.ground_condition(subgoal).ok()?;
-        for member in servants(&order, &condition, &merger.state) {
+    for (index, wanted) in wanted.iter().enumerate() {
+        for member in servants(&order, &wanted.condition, &merger.state) {
             packages.push(PackageSpec {
                 member,
-                goal: subgoal.clone(),
+                goal: wanted.goal.clone(),
                 subgoals: vec![index],
                 after: Vec::new(),
                 asked_after: Vec::new(),
