@@ -19,8 +19,8 @@ one the validator works out. Compared are CPU times (user and system, everything
 other work on the machine matters little.
 
 With `--rows` results are kept: what the file says of a planner of the same content on the same machine is not
-run again, as far as it answers. A plan found within the limit answers, and so does a failure under a limit that was
-no lower. So a first round with `--time-limit 3` is not lost for the one with 30, and a change of our own planner costs
+run again, as far as it answers. A plan found within the limit answers, and so does a failure that came before its
+limit or under one that was no lower. So a first round with `--time-limit 3` is not lost for the one with 30, and a change of our own planner costs
 no run of its peers.
 """
 
@@ -161,9 +161,11 @@ def plan_lines(folder, text):
         try:
             steps = json.loads(text).get("plan") or []
             steps = steps.get("steps", []) if isinstance(steps, dict) else steps
-            text = "\n".join(s if isinstance(s, str) else str(s.get("action", s.get("name"))) for s in steps)
+            named = [s if isinstance(s, str) else " ".join([s.get("action", s.get("name")), *s.get("args", [])])
+                     for s in steps]
+            text = "\n".join(named)
             text = "\n".join(line if line.startswith("(") else f"({line})" for line in text.splitlines())
-        except (ValueError, AttributeError):
+        except (ValueError, AttributeError, TypeError):
             pass
     lines = (re.match(r"\s*(?:[\d.]+:\s*)?(\([^()]*\))", line) for line in text.splitlines())
     return [match.group(1).lower() for match in lines if match]
@@ -231,7 +233,8 @@ class Rows:
                 continue
             if row["status"] == "solved" and row["cpu"] <= self.options.time_limit:
                 return row
-            if row["limit"] >= self.options.time_limit:
+            ended = row["exit"] != str(-signal.SIGKILL) and row["cpu"] < 0.9 * row["limit"]
+            if row["limit"] >= self.options.time_limit or ended:
                 return row if row["cpu"] <= self.options.time_limit else row | dict(status="time", cost="")
         return None
 
