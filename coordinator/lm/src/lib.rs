@@ -11,7 +11,7 @@ pub mod prompt;
 pub mod request;
 pub mod spec;
 
-pub use answer::{Answer, Clarification, Decomposition, LmError, Subtask};
+pub use answer::{Answer, Ban, Clarification, Decomposition, LmError, Subtask};
 pub use chat::{ChatModel, Usage};
 pub use fallback::Fallback;
 pub use offline::Offline;

@@ -40,7 +40,7 @@ pub struct Interpreter<'d, 'a> {
     switches_on: bool,
     clause: usize,
     /// What must not become so.
-    bans: Vec<forbid::Ban>,
+    prohibitions: Vec<forbid::Prohibition>,
     /// Whether the clause at hand said anything, new or not.
     pub spoke: bool,
 }
@@ -78,7 +78,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             lamp_wanted,
             switches_on,
             clause: 0,
-            bans: Vec::new(),
+            prohibitions: Vec::new(),
             spoke: false,
         }
     }
@@ -301,10 +301,12 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         } else if clause.complement.is_empty() {
             self.discourse.problem(format!("I do not know what is to hold in \"{}\"", clause.text), 0.3);
         }
-        for &entity in &objects {
-            let entity = self.switch_of(entity, &clause.complement);
+        let switched: Vec<usize> =
+            objects.iter().map(|&entity| self.switch_of(entity, &clause.complement)).collect();
+        for &entity in &switched {
             self.add_states(entity, &clause.complement);
         }
+        self.keep_on_the_way(clause, &switched);
         Spoken { objects, ..Spoken::default() }
     }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::lexicon::{Lexicon, Noun, Settings};
 use super::scene::{Scene, is_in_state};
 use super::syntax::{Head, Phrase, Place, Quantity};
-use crate::ObjectView;
+use crate::{Ban, ObjectView};
 
 /// Which objects of its type an entity is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -69,6 +69,8 @@ pub struct Discourse<'a> {
     pub problems: Vec<String>,
     /// From 0 to 1.
     pub confidence: f64,
+    /// What must not be done on the way.
+    pub bans: Vec<Ban>,
     /// What is switched, and by what.
     controls: Vec<(usize, usize)>,
 }
@@ -84,6 +86,7 @@ impl<'a> Discourse<'a> {
             assumptions: Vec::new(),
             problems: Vec::new(),
             confidence: 1.0,
+            bans: Vec::new(),
             controls: Vec::new(),
         }
     }

@@ -19,17 +19,23 @@ struct Front {
     chained: usize,
 }
 
-impl Parser<'_> {
-    /// One noun phrase at the position, or nothing with the position unchanged.
-    pub(super) fn phrase(&mut self, depth: usize) -> Option<Phrase> {
-        let start = self.position;
-        let mut front = Front {
+impl Front {
+    fn new() -> Self {
+        Self {
             phrase: Phrase::bare(Head::Room, ""),
             quantity: None,
             sliced: false,
             plural: false,
             chained: 0,
-        };
+        }
+    }
+}
+
+impl Parser<'_> {
+    /// One noun phrase at the position, or nothing with the position unchanged.
+    pub(super) fn phrase(&mut self, depth: usize) -> Option<Phrase> {
+        let start = self.position;
+        let mut front = Front::new();
         let head = if depth > DEEPEST { None } else { self.head(&mut front) };
         let Some(head) = head else {
             self.position = start;
@@ -66,6 +72,9 @@ impl Parser<'_> {
             if word == "," && self.position > start && self.list_of_modifiers() {
                 self.position += 1;
                 continue;
+            }
+            if let Some(head) = self.by_use(front) {
+                return Some(head);
             }
             if let Some(head) = self.pronoun(word, front) {
                 return Some(head);
@@ -467,3 +476,4 @@ pub(super) fn nouns<'a>(words: &'a [String], lexicon: &'a Lexicon) -> Vec<NounAt
 
 mod mend;
 mod tail;
+mod usage;

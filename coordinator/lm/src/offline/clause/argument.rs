@@ -169,6 +169,10 @@ impl<'a> Parser<'a> {
 
     /// A prepositional phrase.
     pub(super) fn place(&mut self, clause: &mut Clause<'a>) -> bool {
+        if let Some(phrase) = self.somewhere() {
+            clause.places.push(Place::new(Relation::In, "in", phrase));
+            return true;
+        }
         let Some((relation, length)) = preposition(&self.rest()) else { return false };
         let start = self.position;
         self.position += length;
