@@ -144,7 +144,9 @@ fn cause(fact: &str, got: &[String]) -> String {
 fn facts(entries: &[GoalEntry], objects: &[ObjectView]) -> Vec<String> {
     let mut found = Vec::new();
     entries.iter().for_each(|entry| judge::facts(entry, objects, &mut found));
-    judge::numbered(found)
+    // A basin is a sink.
+    let plain = |fact: String| fact.replace("SinkBasin", "Sink").replace("BathtubBasin", "Bathtub");
+    judge::numbered(found.into_iter().map(|(fact, of)| (plain(fact), of)).collect())
 }
 
 /// Whether an entry holds before anything is done, by one object or, if it says so, by all.

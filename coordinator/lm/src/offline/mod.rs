@@ -355,7 +355,7 @@ struct Snapshot {
     assumptions: Vec<String>,
     problem_list: Vec<String>,
     problems: usize,
-    confidence: f64,
+    confidence: mention::Confidence,
 }
 
 impl Snapshot {
@@ -457,7 +457,7 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
     discourse.note_what_is_so(&facts);
     discourse.bind_names(&facts);
     let subtasks = Emitter::new(&mut discourse, facts, &stays).subtasks(clauses);
-    let confidence = if subtasks.is_empty() { 0.0 } else { discourse.confidence };
+    let confidence = if subtasks.is_empty() { 0.0 } else { discourse.confidence.value() };
     Reading {
         decomposition: Decomposition { subtasks, assumptions: discourse.assumptions, confidence, bans: discourse.bans },
         problems: discourse.problems,

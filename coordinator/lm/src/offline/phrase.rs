@@ -176,7 +176,11 @@ impl Parser<'_> {
     fn pronoun(&mut self, word: &str, front: &mut Front) -> Option<Head> {
         let next = self.word_at(1);
         let alone = next.is_none_or(|next| {
-            (is_function_word(next) && !is_determiner(next) && next != "of") || ",.".contains(next)
+            (is_function_word(next) && !is_determiner(next) && next != "of")
+                || ",.".contains(next)
+                || word == "both"
+                    && self.lexicon.adjective(&[next]).is_some()
+                    && self.longest_noun_at(self.position + 2).is_none()
         });
         let head = match word {
             "it" if self.is_miswritten_its(word) => return None,
@@ -292,7 +296,7 @@ impl Parser<'_> {
     fn food_follows(&self, offset: usize) -> bool {
         (offset..offset + 4).any(|at| {
             self.longest_noun_at(self.position + at)
-                .is_some_and(|(noun, _, _)| self.has_affordance(&noun, "sliceable"))
+                .is_some_and(|(noun, _, _)| !noun.class && self.has_affordance(&noun, "sliceable"))
         })
     }
 

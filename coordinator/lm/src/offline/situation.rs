@@ -198,7 +198,7 @@ impl Interpreter<'_, '_> {
         let scene = self.discourse.scene;
         let kind = self.discourse.entities[entity].kind().to_owned();
         let before = self.facts.len();
-        for (property, value) in &template.is {
+        for (property, value) in &self.discourse.possible_states(entity, template.is.clone()) {
             let possible = match property.as_str() {
                 "isOpen" => scene.affords(&kind, "openable"),
                 "isToggled" => scene.affords(&kind, "toggleable"),
