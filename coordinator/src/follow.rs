@@ -140,7 +140,7 @@ impl Coordinator {
     /// Steps may be chosen anew where nothing was asked for that is over before the end.
     fn shorten(&self, round: &Round) -> Shorten {
         let subgoals = self.understanding.as_ref().map_or(&[][..], |u| &u.subgoals);
-        let lasting = subgoals.iter().all(|s| s.lasting);
+        let lasting = self.config.method.divide && subgoals.iter().all(|s| s.lasting);
         let wanted = |s: &Subgoal| Wanted { goal: s.goal.clone(), after: s.after.clone() };
         Shorten {
             available: self.roster.available(),
@@ -193,6 +193,11 @@ impl Coordinator {
             .filter_map(|a| self.roster.report(a).map(|r| (a, r)))
             .filter(|(_, r)| r.epoch == self.epoch)
             .find_map(|(a, r)| r.refused.clone().map(|refusal| (a, refusal)));
+        if self.is_written() && !done {
+            let skipped = self.skipped(&following);
+            self.put_phase(Phase::Executing(following));
+            return self.skip(skipped);
+        }
         self.put_phase(Phase::Executing(following));
         if done {
             return self.executed();
@@ -232,7 +237,7 @@ impl Coordinator {
     fn executed(&mut self) {
         let Some(facts) = self.view.state() else { return };
         let reached = self.reaches(&world_state(&facts), &self.final_goal());
-        if reached {
+        if reached || self.is_written() {
             return self.finish(OutcomeKind::Success, None);
         }
         self.fault("all steps are done and the goal does not hold: the world has changed meanwhile");
