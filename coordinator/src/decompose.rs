@@ -10,13 +10,14 @@ use std::time::Duration;
 use lamma_domains::condition::condition as goal;
 use lamma_domains::goal::{Content, GoalEntry};
 use lamma_domains::view::views;
-use lamma_domains::world::WorldSetup;
+use lamma_domains::world::{Thing, WorldSetup};
 use lamma_lm::{
     Answer, Clarification, Decomposition, LanguageModel, LmError, Request, RobotView, Script, ScriptRequest,
     Subtask,
 };
 use lamma_pddl::ast::GroundAtom;
 
+use crate::bans::Ban;
 use crate::understand::{GoalGroup, GoalItem, ScoreGoal, Subgoal, Understanding, Understood};
 use crate::written::{NotWritten, WriteInput};
 
@@ -128,7 +129,28 @@ pub fn ground(world: &WorldSetup, decomposition: &Decomposition) -> Result<Under
         goal: if lasting.is_empty() { ScoreGoal::default() } else { score_goal(world, &lasting)? },
         subgoals,
         assumptions: decomposition.assumptions.clone(),
+        bans: decomposition.bans.iter().flat_map(|ban| bans(world, ban)).collect(),
     })
+}
+
+/// A ban on a type or an object, for each object it is about.
+fn bans(world: &WorldSetup, ban: &lamma_lm::Ban) -> Vec<Ban> {
+    let named = |said: &str| -> Vec<String> {
+        let is_meant = |thing: &&Thing| thing.name.eq_ignore_ascii_case(said) || thing.kind == said;
+        world.things.iter().filter(is_meant).map(|thing| thing.name.clone()).collect()
+    };
+    let items: Vec<Option<String>> = match &ban.item {
+        Some(item) => named(item).into_iter().map(Some).collect(),
+        None => vec![None],
+    };
+    let of = |object: String| {
+        items.iter().map(move |item| Ban {
+            skill: ban.skill.clone(),
+            object: object.clone(),
+            item: item.clone(),
+        })
+    };
+    named(&ban.object).into_iter().flat_map(of).collect()
 }
 
 /// The goal of a sub-task with what earlier ones demand of the same objects: "wash the fork, put it in the
@@ -176,5 +198,5 @@ pub fn given(world: &WorldSetup, entries: &[GoalEntry]) -> Result<Understanding,
         lasting: true,
         advice: Vec::new(),
     });
-    Ok(Understanding { subgoals: subgoals.collect(), goal, assumptions: Vec::new() })
+    Ok(Understanding { subgoals: subgoals.collect(), goal, assumptions: Vec::new(), bans: Vec::new() })
 }

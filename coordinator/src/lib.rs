@@ -7,6 +7,7 @@
 pub mod allocate;
 pub mod allocation;
 pub mod assign;
+pub mod bans;
 pub mod bound;
 pub mod combine;
 mod costs;

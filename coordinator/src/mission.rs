@@ -73,6 +73,7 @@ impl Understanding {
             subgoals: vec![subgoal],
             goal: ScoreGoal { groups: conjuncts.into_iter().map(group).collect() },
             assumptions: Vec::new(),
+            bans: Vec::new(),
         }
     }
 }

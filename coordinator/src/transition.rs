@@ -7,6 +7,7 @@ use lamma_pddl::multi_agent::own_name;
 use lamma_protocol::message::{Command, EventKind, Order, Report};
 use lamma_protocol::{AgentId, Epoch, JobId, Output, Revision, StepIndex};
 
+use crate::bans::{Ban, as_planned};
 use crate::allocation::{AllocateInput, Allocation, NoAllocation};
 use crate::combine::{TeamPlan, world_state};
 use crate::job::{CoordinatorDone, CoordinatorJob};
@@ -216,7 +217,7 @@ impl Coordinator {
     }
 
     pub(crate) fn allocate(&mut self) {
-        let (Some(understanding), Some(facts)) = (&self.understanding, self.view.state()) else { return };
+        let (Some(understanding), Some(facts)) = (&self.understanding, self.planned_from()) else { return };
         let mut subgoals = understanding.subgoals.clone();
         for &s in &self.reached_on_the_way {
             // Reached and left behind before this plan: nothing to do, and nothing waits for it.
@@ -236,6 +237,15 @@ impl Coordinator {
         };
         let job = self.spawn(CoordinatorJob::Allocate(Box::new(input)));
         self.enter(Phase::Allocating(job));
+    }
+
+    /// The world as plans are made from it: without what the person has forbidden.
+    fn planned_from(&self) -> Option<BTreeSet<GroundAtom>> {
+        Some(as_planned(self.view.state()?, self.bans()))
+    }
+
+    fn bans(&self) -> &[Ban] {
+        self.understanding.as_ref().map_or(&[], |understanding| &understanding.bans)
     }
 
     pub(crate) fn understood(&mut self, understood: Understood) {
@@ -279,7 +289,7 @@ impl Coordinator {
             Err(NoAllocation::NotThisWay(why)) => return self.coarsen(OutcomeKind::GaveUp, why),
             Err(NoAllocation::GaveUp(why)) => return self.coarsen(OutcomeKind::GaveUp, why),
         };
-        let Some(facts) = self.view.state() else { return };
+        let Some(facts) = self.planned_from() else { return };
         self.lower_bound.get_or_insert(allocation.lower_bound);
         let subgoals = self.understanding.as_ref().map_or(0, |u| u.subgoals.len());
         for s in 0..subgoals {
@@ -307,7 +317,13 @@ impl Coordinator {
             .filter_map(|a| self.roster.lost_reason(a).map(|r| format!("{} {r}", self.name_of(a))))
             .collect();
         let lost = if lost.is_empty() { String::new() } else { format!(" ({})", lost.join("; ")) };
-        self.finish(OutcomeKind::Infeasible, Some(format!("{why}{lost}")));
+        let forbidden: BTreeSet<String> = self.bans().iter().map(ToString::to_string).collect();
+        let forbidden = if forbidden.is_empty() {
+            String::new()
+        } else {
+            format!(" (forbidden: {})", forbidden.into_iter().collect::<Vec<_>>().join(", "))
+        };
+        self.finish(OutcomeKind::Infeasible, Some(format!("{why}{lost}{forbidden}")));
     }
 
     pub(crate) fn combined(&mut self, combined: Result<Box<Combined>, String>) {
@@ -338,6 +354,11 @@ impl Coordinator {
             self.lower_bound = Some(bound);
             let busy = plan.timeline.iter().map(|step| step.duration).sum();
             self.first_plan = Some((plan.makespan, busy));
+        }
+        let mut steps = plan.steps.iter().flatten();
+        if let Some(step) = steps.find(|step| self.bans().iter().any(|ban| ban.forbids(&step.act))) {
+            let why = format!("the plan would do what is forbidden: {}", step.act);
+            return self.finish(OutcomeKind::Error, Some(why));
         }
         self.event(
             EventKind::Note,

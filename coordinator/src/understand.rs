@@ -3,6 +3,7 @@
 use lamma_lm::Clarification;
 use lamma_pddl::ast::Condition;
 
+use crate::bans::Ban;
 use crate::result::GoalResult;
 
 /// A sub-task with its goal in PDDL.
@@ -81,6 +82,8 @@ pub struct Understanding {
     pub goal: ScoreGoal,
     /// What was taken for granted.
     pub assumptions: Vec<String>,
+    /// What nobody may do on the way.
+    pub bans: Vec<Ban>,
 }
 
 impl Understanding {

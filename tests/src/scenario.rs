@@ -150,6 +150,7 @@ impl Scenario {
                 .collect(),
             goal: ScoreGoal { groups: subgoals.iter().map(group).collect() },
             assumptions: Vec::new(),
+            bans: Vec::new(),
         };
         let init = init.iter().map(|f| Init::Fact(parse_ground_atom(f).expect("the fact parses"))).collect();
         let interpreter = Interpreter::new(&world, &objects).expect("the domain makes sense");

@@ -64,7 +64,7 @@ pub fn decode(text: &str, request: &Request) -> Result<Answer, Vec<String>> {
     }
     if checker.errors.is_empty() {
         let Wire { subtasks, assumptions, .. } = wire;
-        Ok(Answer::Understood(Decomposition { subtasks, assumptions, confidence }))
+        Ok(Answer::Understood(Decomposition { subtasks, assumptions, confidence, bans: Vec::new() }))
     } else {
         Err(checker.errors)
     }

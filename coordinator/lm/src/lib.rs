@@ -12,7 +12,7 @@ pub mod request;
 pub mod script;
 pub mod spec;
 
-pub use answer::{Answer, Clarification, Decomposition, LmError, Subtask};
+pub use answer::{Answer, Ban, Clarification, Decomposition, LmError, Subtask};
 pub use chat::{ChatModel, Usage};
 pub use fallback::Fallback;
 pub use offline::Offline;
