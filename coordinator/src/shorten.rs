@@ -16,8 +16,8 @@ use crate::merge::Merger;
 use crate::sequence::{Ordered, milestones, relied_on};
 use crate::team::Team;
 
-/// Changes of a plan that are tried where going takes its time.
-const CHANGES: u32 = 4_000;
+/// Steps that are looked at for a better plan where going takes its time: a fraction of a second.
+const HURRY: u64 = 30_000;
 
 /// What may be done about a plan.
 #[derive(Clone, Debug)]
@@ -155,7 +155,7 @@ fn sooner(
             plans.extend(found.schedule.and_then(|schedule| scheduled(interpreter, &joint, &schedule)));
         }
         let members = how.available.iter().map(|&m| (m, team.members[m].name.clone())).collect();
-        let (initial, budget) = (&merger.initial, CHANGES);
+        let (initial, budget) = (&merger.initial, HURRY);
         let hurry = Hurry { interpreter, initial, goal: &ground, members, budget };
         let (order, end) = hurry.run(&plans, cancel)?;
         let packages = serving(&order, &end, &wanted);

@@ -461,7 +461,12 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
     let subtasks = Emitter::new(&mut discourse, facts, &stays).subtasks(clauses);
     let confidence = if subtasks.is_empty() { 0.0 } else { discourse.confidence.value() };
     Reading {
-        decomposition: Decomposition { subtasks, assumptions: discourse.assumptions, confidence, bans: discourse.bans },
+        decomposition: Decomposition {
+            subtasks,
+            assumptions: discourse.assumptions,
+            confidence,
+            bans: discourse.bans,
+        },
         problems: discourse.problems,
         others: Vec::new(),
         only_goes: !clauses.is_empty() && clauses.iter().all(only_goes),

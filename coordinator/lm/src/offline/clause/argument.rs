@@ -274,7 +274,8 @@ impl<'a> Parser<'a> {
             behind.position += usize::from(behind.peek().is_some_and(is_going));
             let goes_elsewhere = preposition(&behind.rest())
                 .is_some_and(|(other, _)| other != Relation::From && other != Relation::With);
-            let another_pair = relation != Relation::From && (goes_elsewhere || preposition(&self.rest()).is_some())
+            let another_pair = relation != Relation::From
+                && (goes_elsewhere || preposition(&self.rest()).is_some())
                 || matches!(self.peek(), Some("on" | "off" | "should" | "must" | "is" | "are" | "needs"));
             if another_pair {
                 self.position = start;

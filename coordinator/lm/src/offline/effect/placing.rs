@@ -83,8 +83,13 @@ impl<'a> Interpreter<'_, 'a> {
     fn laid_with(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
         let [place] = clause.objects.as_slice() else { return None };
         let with = |place: &&Place| place.relation == Relation::With && self.is_movable(&place.phrase);
-        let things: Vec<Phrase> =
-            clause.places.iter().filter(with).map(|place| place.phrase.clone()).chain(place.with.clone()).collect();
+        let things: Vec<Phrase> = clause
+            .places
+            .iter()
+            .filter(with)
+            .map(|place| place.phrase.clone())
+            .chain(place.with.clone())
+            .collect();
         let takes = matches!(&place.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
             self.discourse.scene.affords(kind, "receptacle") && !self.discourse.scene.affords(kind, "pickupable")
         }));
@@ -179,7 +184,9 @@ impl<'a> Interpreter<'_, 'a> {
     pub(super) fn put(&mut self, clause: &Clause<'a>, at: &[Place], goal: &Place) -> Spoken {
         let mut objects = self.objects(clause, at, Some("pickupable"));
         let mut places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
-        if matches!(goal.phrase.head, Head::Pronoun { .. }) && places.iter().any(|place| objects.contains(place)) {
+        if matches!(goal.phrase.head, Head::Pronoun { .. })
+            && places.iter().any(|place| objects.contains(place))
+        {
             places = self.place_spoken_of(&objects).into_iter().collect();
         }
         self.leave_what_does_not_fit(clause, &mut objects, &places);
