@@ -113,6 +113,7 @@ macro_rules! conformance {
             another_version_is_refused_by_name a_message_too_large_is_refused_at_the_sender
             foreign_words_are_no_frame a_large_message_and_a_large_frame_arrive
             a_reader_that_never_reads_blocks_nobody a_publication_ends_a_wait_in_another_thread
+            an_awaited_frame_ends_a_wait_in_another_thread what_is_not_awaited_comes_with_what_is
             a_waker_ends_a_wait a_waker_used_before_the_wait_is_not_lost a_wait_ends_with_its_time
         );
     };

@@ -7,10 +7,10 @@
 use std::time::{Duration, Instant};
 
 use lamma_bus::{Bus, PublishError, Received};
-use lamma_protocol::message::{Ack, Act, Command, Directive, Grant, Order, Outcome, Report, Request};
+use lamma_protocol::message::{Ack, Act, Command, Directive, Gate, Grant, Order, Outcome, Report, Request};
 use lamma_protocol::message::{Verdict, Vocabulary};
 use lamma_protocol::{
-    AgentId, Envelope, Epoch, FrameHeader, Message, Node, Revision, StepIndex, Topic, codec, frame,
+    AgentId, Awaits, Envelope, Epoch, FrameHeader, Message, Node, Revision, StepIndex, Topic, codec, frame,
 };
 
 use super::Fixture;
@@ -421,6 +421,64 @@ pub fn a_publication_ends_a_wait_in_another_thread<F: Fixture>() {
         }
         reader.join().unwrap();
     });
+}
+
+/// A frame in which R1 has done so many steps.
+fn progress(version: u64, done: u64) -> Vec<u64> {
+    let progress = vec![StepIndex(0), StepIndex(done as u32)];
+    frame::write_frame(&FrameHeader { version, progress, ..FrameHeader::default() }, &[])
+}
+
+pub fn an_awaited_frame_ends_a_wait_in_another_thread<F: Fixture>() {
+    let bus = F::new(2);
+    std::thread::scope(|scope| {
+        let (ready, is_ready) = std::sync::mpsc::channel();
+        let reader = scope.spawn({
+            let bus = &bus;
+            move || {
+                let mut robot = bus.open(Node::Robot(R0));
+                ready.send(()).unwrap();
+                for number in 1..=100 {
+                    let gate = Gate { agent: R1, done: StepIndex(number as u32) };
+                    while !receive(&mut robot).iter().any(|g| g.number() == 2 * number) {
+                        robot.await_frames(Awaits::Opening(gate));
+                        robot.wait(None).unwrap();
+                    }
+                    let topic = Topic::Request(R0);
+                    robot.publish(topic, &sample(topic, number)).unwrap();
+                }
+            }
+        });
+        let mut simulator = bus.open(Node::Simulator);
+        is_ready.recv().unwrap();
+        for number in 1..=100 {
+            simulator.publish_frame(&progress(2 * number - 1, number - 1)).unwrap();
+            simulator.publish_frame(&progress(2 * number, number)).unwrap();
+            while !receive(&mut simulator).iter().any(|g| g.number() == number) {
+                simulator.wait(None).unwrap();
+            }
+        }
+        reader.join().unwrap();
+    });
+}
+
+pub fn what_is_not_awaited_comes_with_what_is<F: Fixture>() {
+    let bus = F::new(2);
+    let (mut simulator, mut robot) = (bus.open(Node::Simulator), bus.open(Node::Robot(R0)));
+    settle(&mut [&mut simulator, &mut robot]);
+    let ack = Topic::Ack(R0);
+    robot.await_frames(Awaits::NoFrame);
+    simulator.publish_frame(&progress(1, 1)).unwrap();
+    simulator.publish_quietly(ack, &codec::encode(&sample(ack, 1)).unwrap()).unwrap();
+    simulator.publish(Topic::Ack(R0), &sample(ack, 2)).unwrap();
+    let got = until(&mut robot, ack, 2, &mut [&mut simulator]);
+    assert!(got.iter().any(|g| g.topic() == Some(Topic::Frame) && g.number() == 1), "{got:?}");
+    // One that came before it was awaited is not waited for in vain.
+    simulator.publish_frame(&progress(2, 1)).unwrap();
+    robot.await_frames(Awaits::AnyFrame);
+    while !receive(&mut robot).iter().any(|g| g.number() == 2) {
+        assert!(robot.wait(Some(PATIENCE)).unwrap(), "the frame was slept through");
+    }
 }
 
 pub fn a_waker_ends_a_wait<F: Fixture>() {
