@@ -5,8 +5,8 @@
 //! For no, some and all robots stopped: the greatest time of any send, how often the sender gave up its
 //! processor of its own accord while sending, which is what waiting for anything looks like to the kernel, and how
 //! long the slowest of the robots that were not stopped took to see the last frame. (The greatest time also holds
-//! what the machine gave to other programs meanwhile, the robots among them: on a machine with fewer processors than
-//! processes that is most of it. *Running* is the sender's own processor time for its dearest send.)
+//! what the machine gave to other programs meanwhile, the robots that it woke among them. *Running* is the sender's
+//! own processor time for its dearest send; `chrt -f 5` in front of the command keeps the others from the sender.)
 #![expect(clippy::unwrap_used, reason = "an example that fails says where")]
 #![expect(unsafe_code, reason = "a thread's processor time is had from the C interface only")]
 
@@ -40,7 +40,7 @@ fn main() {
     let sends = args.get(2).map_or(20_000, |n| n.parse::<u32>().unwrap()).next_multiple_of(4);
     let bus = args.get(3).map_or("iceoryx2", String::as_str);
     println!(
-        "bus       robots  stopped   p50 us   p99 us   max us  running  over 1 ms  gave up the processor  last seen by ms"
+        "bus       robots  stopped   p50 us   p99 us   max us  over 1 ms  running us  over 1 ms  gave way  last seen by ms"
     );
     for robots in sizes.split(',').map(|n| n.parse().unwrap()) {
         match bus {
@@ -93,14 +93,16 @@ fn stop_some(bus: &str, place: &str, robots: u16, sends: u32) {
         let awake: Vec<usize> = (0..usize::from(robots)).filter(|i| !is_stopped(i)).collect();
         let seen = await_answers(simulator.as_mut(), &awake, last);
         stopped.iter().for_each(|c| signal(c, Signal::CONT));
-        let late = sent.times.iter().filter(|t| **t > Duration::from_millis(1)).count();
+        let late = |times: &[Duration]| times.iter().filter(|t| **t > Duration::from_millis(1)).count();
         println!(
-            "{bus:8}  {robots:>6}  {:>7}  {:>7.1}  {:>7.1}  {:>7.1}  {:>7.1}  {late:>9}  {:>21}  {:>15.1}",
+            "{bus:8}  {robots:>6}  {:>7}  {:>7.1}  {:>7.1}  {:>7.1}  {:>9}  {:>10.1}  {:>9}  {:>8}  {:>15.1}",
             stopped.len(),
             quantile(&mut sent.times, 500),
             quantile(&mut sent.times, 990),
             quantile(&mut sent.times, 1000),
+            late(&sent.times),
             quantile(&mut sent.running, 1000),
+            late(&sent.running),
             sent.waits,
             seen.as_secs_f64() * 1e3
         );

@@ -34,6 +34,7 @@ pub struct Endpoint {
     keys: Keys,
     session: Session,
     opened: u64,
+    at_once: bool,
     said: BTreeMap<Topic, Said>,
     mailbox: Arc<Mailbox>,
     inbox: Inbox,
@@ -91,6 +92,7 @@ impl Endpoint {
             keys,
             session,
             opened,
+            at_once: config::at_once(agents),
             said: BTreeMap::new(),
             mailbox,
             inbox: Inbox::default(),
@@ -122,7 +124,7 @@ impl Endpoint {
                 Said { key, payload: payload.into(), number, again, pause }
             }
         };
-        let sent = said.send(&self.session, self.opened);
+        let sent = said.send(&self.session, self.opened, self.at_once);
         self.said.insert(topic, said);
         self.inbox.stats.published = number;
         sent.map_err(fail)
@@ -137,7 +139,7 @@ impl Endpoint {
             if !welcome && said.again > now {
                 continue;
             }
-            if let Err(error) = said.send(&self.session, self.opened) {
+            if let Err(error) = said.send(&self.session, self.opened, self.at_once) {
                 tracing::debug!(%topic, "not said again: {error}");
             }
             said.pause = if welcome { FIRST_REPEAT } else { (said.pause * 2).min(LAST_REPEAT) };
@@ -148,10 +150,10 @@ impl Endpoint {
 }
 
 impl Said {
-    fn send(&self, session: &Session, opened: u64) -> zenoh::Result<()> {
+    fn send(&self, session: &Session, opened: u64, at_once: bool) -> zenoh::Result<()> {
         let stamp = Stamp { session: opened, number: self.number };
         let put = session.put(&self.key, self.payload.clone()).attachment(&stamp.to_bytes()[..]);
-        put.congestion_control(CongestionControl::Drop).express(true).wait()
+        put.congestion_control(CongestionControl::Drop).express(at_once).wait()
     }
 }
 
