@@ -7,8 +7,8 @@ use lamma_pddl::multi_agent::own_name;
 use lamma_protocol::message::{Command, EventKind, Order, Report};
 use lamma_protocol::{AgentId, Epoch, JobId, Output, Revision, StepIndex};
 
-use crate::bans::{Ban, as_planned};
 use crate::allocation::{AllocateInput, Allocation, NoAllocation};
+use crate::bans::{Ban, as_planned};
 use crate::combine::{TeamPlan, world_state};
 use crate::job::{CoordinatorDone, CoordinatorJob};
 use crate::machine::Coordinator;
