@@ -10,7 +10,7 @@ use std::sync::Arc;
 use lamma_planner::MakespanLimits;
 use lamma_planner::interpreter::Interpreter;
 use lamma_protocol::message::{Directive, Event, Message};
-use lamma_protocol::{AgentId, Epoch, Input, Machine, Output, Repeat, Revision, Tick, Topic};
+use lamma_protocol::{AgentId, Epoch, Input, Machine, Output, Revision, SaidToEach, Tick, Topic};
 
 use crate::allocation::{Allocation, AllocationRule, Cut};
 use crate::combine::TeamPlan;
@@ -90,7 +90,7 @@ pub struct Coordinator {
     pub(crate) events: VecDeque<Event>,
     pub(crate) events_dropped: u64,
     pub(crate) result: Option<String>,
-    pub(crate) directives: Vec<Option<(Directive, Repeat)>>,
+    pub(crate) directives: SaidToEach<Directive>,
     pub(crate) repeat_at: Tick,
     pub(crate) outputs: VecDeque<Output<CoordinatorJob>>,
     pub(crate) untold: bool,
@@ -137,7 +137,7 @@ impl Coordinator {
             events: VecDeque::new(),
             events_dropped: 0,
             result: None,
-            directives: vec![None; members],
+            directives: SaidToEach::nothing(members),
             repeat_at: Tick(0),
             outputs: VecDeque::new(),
             untold: true,

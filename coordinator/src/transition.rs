@@ -96,14 +96,14 @@ impl Coordinator {
         self.enter(Phase::Finished);
         let result = self.build_result(kind, reason, ask);
         self.result = serde_json::to_string(&result).ok();
-        for agent in (0..self.directives.len() as u16).map(AgentId) {
+        for agent in (0..self.directives.agents() as u16).map(AgentId) {
             self.direct(agent, Order::Leave);
         }
         self.untold = true;
     }
 
     pub(crate) fn progress(&self) -> Vec<StepIndex> {
-        (0..self.directives.len() as u16).map(|a| self.view.progress(AgentId(a))).collect()
+        (0..self.directives.agents() as u16).map(|a| self.view.progress(AgentId(a))).collect()
     }
 
     /// Steps that were applied go into the history, later than everything there.
@@ -177,7 +177,7 @@ impl Coordinator {
     pub(crate) fn nobody_left(&mut self) -> bool {
         let nobody = self.roster.available().is_empty();
         if nobody {
-            let why = (0..self.directives.len() as u16)
+            let why = (0..self.directives.agents() as u16)
                 .map(AgentId)
                 .find_map(|a| self.roster.lost_reason(a).map(|r| format!("{} {r}", self.name_of(a))))
                 .unwrap_or_default();
@@ -191,7 +191,7 @@ impl Coordinator {
             return;
         }
         if let Some(plan) = self.closing.take() {
-            let done: Vec<StepIndex> = (0..self.directives.len() as u16)
+            let done: Vec<StepIndex> = (0..self.directives.agents() as u16)
                 .map(|a| self.view.frame().map_or(StepIndex(0), |f| f.closed(AgentId(a))))
                 .collect();
             self.record(&plan, &done);
@@ -304,7 +304,7 @@ impl Coordinator {
             return self.write_as_allocated(allocation);
         }
         let merger = Merger::new(world_state(&facts));
-        let round = Round::new(allocation, merger, self.directives.len());
+        let round = Round::new(allocation, merger, self.directives.agents());
         self.enter(Phase::Planning(Box::new(round)));
     }
 

@@ -211,6 +211,17 @@ pub enum BusArg {
     Zenoh,
 }
 
+impl BusArg {
+    /// As it is written on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            BusArg::Iceoryx2 => "iceoryx2",
+            BusArg::Inproc => "inproc",
+            BusArg::Zenoh => "zenoh",
+        }
+    }
+}
+
 /// Output formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
@@ -324,6 +335,9 @@ pub struct ScaleArgs {
     /// The sizes of the teams, separated by commas.
     #[arg(long, value_delimiter = ',', default_value = "2,16,64", value_parser = clap::value_parser!(u16).range(1..))]
     pub agents: Vec<u16>,
+    /// The transport between the processes.
+    #[arg(long, value_enum, default_value = "iceoryx2")]
+    pub bus: BusArg,
     /// Host the robots in so many processes instead of one each.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub workers: Option<u16>,
@@ -353,15 +367,9 @@ pub struct RallyArgs {
     /// What it is.
     #[arg(long, value_enum)]
     pub role: RallyRole,
-    /// The folder of the run.
-    #[arg(long)]
-    pub run_dir: PathBuf,
-    /// The shared memory of the run.
-    #[arg(long)]
-    pub scope: lamma_bus::iceoryx::Scope,
-    /// The first robot that it hosts, for robots.
-    #[arg(long, default_value_t = 0)]
-    pub agent: u16,
+    /// As every process; a process of many robots is called by the first of them.
+    #[command(flatten)]
+    pub child: ChildArgs,
     /// When the coordinator gives up.
     #[arg(long, default_value_t = 120_000)]
     pub limit_ms: u64,
