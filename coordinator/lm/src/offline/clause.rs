@@ -317,7 +317,7 @@ impl<'a> Parser<'a> {
         plain && self.longest_noun_at(self.position + length).is_some()
     }
 
-    fn ahead(&self, offset: usize) -> Parser<'a> {
+    pub(super) fn ahead(&self, offset: usize) -> Parser<'a> {
         Parser {
             words: self.words,
             position: self.position + offset,

@@ -23,7 +23,11 @@ impl<'a> Parser<'a> {
             return true;
         }
         let next = self.word_at(1);
-        if preposition(&self.rest()).is_some_and(|(_, length)| length > 1) {
+        // "turn the lamp on to see": no "onto".
+        let purpose = next == Some("to")
+            && self.ahead(2).verbs_here().is_some()
+            && self.ahead(2).longest_noun().is_none();
+        if !purpose && preposition(&self.rest()).is_some_and(|(_, length)| length > 1) {
             return false;
         }
         let free = next.is_none_or(|next| {

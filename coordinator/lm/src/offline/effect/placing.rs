@@ -2,7 +2,7 @@
 
 use super::super::lexicon::{Act, Verb};
 use super::super::mention::Spoken;
-use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
+use super::super::syntax::{Clause, Head, Link, Phrase, Place, Relation};
 use super::{Change, Interpreter};
 
 impl<'a> Interpreter<'_, 'a> {
@@ -19,10 +19,15 @@ impl<'a> Interpreter<'_, 'a> {
             if let Some(inner) = inner {
                 return self.put_nested(clause, &at, &inner, &goal);
             }
+            if let Some(under) = self.is_said_to_stand(&goal) {
+                return self.put_nested(clause, &at, &goal, &under);
+            }
             return self.put(clause, &at, &goal);
         }
+        let meanwhile = clause.link == Link::While && self.lamp_wanted && self.switches_on;
         if let Some(near) = clause.places.iter().find(|place| place.relation == Relation::Near)
             && verb.act == Act::Place
+            && !meanwhile
         {
             return self.put_beside(clause, &at, near);
         }
@@ -74,6 +79,20 @@ impl<'a> Interpreter<'_, 'a> {
             }
         }
         Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
+    }
+
+    /// "in a box that is on a chair": the box is on the chair in the end.
+    fn is_said_to_stand(&self, goal: &Place) -> Option<Place> {
+        let scene = self.discourse.scene;
+        let vessel = matches!(&goal.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
+            scene.affords(kind, "pickupable") && scene.affords(kind, "receptacle")
+        }));
+        let takes = |place: &&Place| {
+            place.relation == Relation::In
+                && matches!(&place.phrase.head, Head::Noun(noun)
+                    if noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")))
+        };
+        goal.phrase.at.iter().find(takes).filter(|_| vessel).cloned()
     }
 
     /// "go to the fridge and open it": going is no goal, but "it" is the fridge.
@@ -140,8 +159,14 @@ impl<'a> Interpreter<'_, 'a> {
                 scene.has(k) && self.discourse.lexicon.is_small("compartments", &[&k.to_lowercase()])
             }))
         };
+        // "on the top shelf inside the fridge": a part of the fridge.
+        let shelves_of_its_own = |i: usize| {
+            matches!(&clause.places[i].phrase.head, Head::Noun(noun)
+                if noun.kinds.first().is_some_and(|k| scene.affords(k, "isColdSource")))
+        };
         let (goal, inner) = match goals.as_slice() {
             [.., a, b] if movable(*a) && !movable(*b) => (*b, Some(*a)),
+            [a, b] if compartment(*a) && shelves_of_its_own(*b) => (*b, None),
             [a, b] if compartment(*a) && !compartment(*b) && relation(*b) == Relation::In => (*a, None),
             _ => (to.unwrap_or(last), None),
         };

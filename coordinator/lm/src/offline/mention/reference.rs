@@ -2,11 +2,23 @@
 
 use std::collections::BTreeSet;
 
-use super::super::syntax::{Phrase, Place};
+use super::super::syntax::{Phrase, Place, Quantity};
 use super::{Discourse, Which};
 
 impl Discourse<'_> {
-    pub(super) fn slices(&mut self) -> Vec<usize> {
+    /// "the slices": of what was sliced last, all of it if several things were.
+    pub(super) fn slices(&mut self, quantity: Quantity) -> Vec<usize> {
+        let sliceable =
+            |e: usize| self.entities[e].kinds.iter().any(|kind| self.scene.affords(kind, "sliceable"));
+        if quantity != Quantity::One {
+            let groups = self.spoken.iter().rev().map(|spoken| spoken.objects.as_slice());
+            let several =
+                groups.take(2).find(|objects| objects.len() > 1 && objects.iter().all(|&e| sliceable(e)));
+            if let Some(objects) = several {
+                let most = if let Quantity::Count(count) = quantity { count } else { objects.len() };
+                return objects.iter().copied().take(most).collect();
+            }
+        }
         let last = (0..self.entities.len())
             .rev()
             .find(|&e| self.entities[e].kinds.iter().any(|kind| self.scene.affords(kind, "sliceable")));
