@@ -40,7 +40,7 @@ pub struct Interpreter<'d, 'a> {
     switches_on: bool,
     clause: usize,
     /// What must not become so.
-    bans: Vec<forbid::Ban>,
+    prohibitions: Vec<forbid::Prohibition>,
     /// Whether the clause at hand said anything, new or not.
     pub spoke: bool,
 }
@@ -79,7 +79,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             lamp_wanted,
             switches_on,
             clause: 0,
-            bans: Vec::new(),
+            prohibitions: Vec::new(),
             spoke: false,
         }
     }
@@ -99,6 +99,9 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         } else if let Some(verb) = self.choose(clause) {
             spoken = match verb.act {
                 Act::Go => self.go(clause, next),
+                Act::Keep if clause.complement.is_empty() && next.is_some_and(speaks_of_it) => {
+                    self.only_mention(clause)
+                }
                 Act::Keep => self.keep(clause),
                 Act::Use => self.use_tool(clause, next),
                 Act::Place | Act::Discard | Act::Store => self.place(clause, verb, next),
@@ -130,6 +133,14 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             self.discourse.assume(format!("took \"{}\" as a remark", clause.text), 0.9);
             spoken = self.only_mention(clause);
             self.spoke = next.is_some_and(speaks_of_it);
+        } else if !clause.objects.is_empty()
+            && clause.unknown.is_empty()
+            && clause.places.is_empty()
+            && next.is_some_and(|next| !next.verbs.is_empty())
+        {
+            // "The dishes: wash the plate and the cup."
+            self.discourse.assume(format!("took \"{}\" as what is spoken of", clause.text), 0.9);
+            spoken = self.only_mention(clause);
         } else if !clause.objects.is_empty() || !clause.unknown.is_empty() {
             self.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.25);
         }
@@ -302,9 +313,21 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         } else if clause.complement.is_empty() {
             self.discourse.problem(format!("I do not know what is to hold in \"{}\"", clause.text), 0.3);
         }
-        for &entity in &objects {
-            let entity = self.switch_of(entity, &clause.complement);
+        let switched: Vec<usize> =
+            objects.iter().map(|&entity| self.switch_of(entity, &clause.complement)).collect();
+        for &entity in &switched {
             self.add_states(entity, &clause.complement);
+        }
+        self.keep_on_the_way(clause, &switched);
+        if !clause.complement.is_empty() && clause.objects.iter().any(|phrase| self.is_movable(phrase)) {
+            let (goal, _, _) = self.sort_places(clause);
+            if let Some(goal) = goal.filter(|goal| goal.relation == Relation::In) {
+                let places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
+                if let Some(&place) = places.first() {
+                    objects.iter().for_each(|&entity| self.put_in(entity, place));
+                }
+                return Spoken { objects, placed: true, places, ..Spoken::default() };
+            }
         }
         Spoken { objects, ..Spoken::default() }
     }

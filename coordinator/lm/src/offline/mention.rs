@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 use super::lexicon::{Lexicon, Noun, Settings};
 use super::scene::{Scene, is_in_state};
 use super::syntax::{Head, Phrase, Place, Quantity};
-use crate::ObjectView;
+use crate::{Ban, ObjectView};
+
+pub use confidence::Confidence;
 
 /// Which objects of its type an entity is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,8 +69,10 @@ pub struct Discourse<'a> {
     pub assumptions: Vec<String>,
     /// Not understood, or not possible here.
     pub problems: Vec<String>,
-    /// From 0 to 1.
-    pub confidence: f64,
+    /// How sure the reading is.
+    pub confidence: Confidence,
+    /// What must not be done on the way.
+    pub bans: Vec<Ban>,
     /// What is switched, and by what.
     controls: Vec<(usize, usize)>,
 }
@@ -83,7 +87,8 @@ impl<'a> Discourse<'a> {
             spoken: Vec::new(),
             assumptions: Vec::new(),
             problems: Vec::new(),
-            confidence: 1.0,
+            confidence: Confidence::default(),
+            bans: Vec::new(),
             controls: Vec::new(),
         }
     }
@@ -92,7 +97,7 @@ impl<'a> Discourse<'a> {
     pub fn problem(&mut self, text: String, factor: f64) {
         if !self.problems.contains(&text) {
             self.problems.push(text);
-            self.confidence *= factor;
+            self.confidence.doubt(factor);
         }
     }
 
@@ -100,7 +105,7 @@ impl<'a> Discourse<'a> {
     pub fn assume(&mut self, text: String, factor: f64) {
         if !self.assumptions.contains(&text) {
             self.assumptions.push(text);
-            self.confidence *= factor;
+            self.confidence.assume(factor);
         }
     }
 
@@ -111,7 +116,7 @@ impl<'a> Discourse<'a> {
             Head::Named(name) => self.named(name),
             Head::Pronoun { plural } => self.pronoun(*plural, wants),
             Head::Slices => self.slices(phrase.quantity),
-            Head::Everything => self.everything(phrase, at),
+            Head::Everything => self.everything(phrase, at, wants),
             // "the door", "the lid": of what was spoken of.
             Head::Room if wants == Some("openable") => self.pronoun(false, wants),
             Head::Liquid(_) | Head::Room => Vec::new(),
@@ -504,6 +509,7 @@ fn names(noun: &Noun, entity: &Entity, scene: &Scene<'_>) -> bool {
         || entity.noun == noun.word && noun.kinds.iter().any(|kind| kind == entity.kind())
 }
 
+mod confidence;
 mod fitting;
 mod naming;
 mod reference;

@@ -66,7 +66,7 @@ impl Offline {
         Ok(Self { lexicon: Lexicon::embedded()? })
     }
 
-    /// With the lexicon of a folder instead: `nouns.toml`, `verbs.toml`, `words.toml`, `situations.toml`.
+    /// With the lexicon of a folder instead: files of the names of those in `domains/household/lexicon`.
     pub fn from_folder(folder: &Path) -> Result<Self, LmError> {
         Ok(Self { lexicon: Lexicon::from_folder(folder)? })
     }
@@ -78,7 +78,7 @@ impl Offline {
 
     /// What it makes of an instruction.
     pub fn read(&self, request: &Request) -> Answer {
-        let scene = Scene::new(&request.objects);
+        let scene = Scene::new(&request.objects, &request.robots);
         let unknown: Vec<&str> = scene.kinds().filter(|kind| !self.lexicon.knows_type(kind)).collect();
         let reading = if unknown.is_empty() {
             read(&request.instruction, &self.lexicon, &scene)
@@ -262,7 +262,7 @@ fn one_clause<'a>(
         && !clause.negated
         && is_weak(clause, lexicon)
         && !says_where(clause, interpreter.discourse.scene)
-        && interpreter.situation(index, strong)
+        && interpreter.situation(index, strong, &words)
     {
         interpreter.discourse.spoken.push(Spoken::default());
         return;
@@ -283,7 +283,7 @@ fn one_clause<'a>(
     {
         let literal = Snapshot::take(interpreter);
         before.restore(interpreter);
-        if interpreter.situation(index, vague) {
+        if interpreter.situation(index, vague, &words) {
             interpreter.discourse.spoken.push(Spoken::default());
             return;
         }
@@ -357,7 +357,7 @@ struct Snapshot {
     assumptions: Vec<String>,
     problem_list: Vec<String>,
     problems: usize,
-    confidence: f64,
+    confidence: mention::Confidence,
 }
 
 impl Snapshot {
@@ -476,7 +476,7 @@ fn as_situation(
         words: words.clone(),
     }];
     let mut interpreter = Interpreter::new(&mut discourse, &clauses);
-    if !interpreter.situation(0, vague) {
+    if !interpreter.situation(0, vague, &words) {
         return None;
     }
     let facts = interpreter.facts;
@@ -495,9 +495,14 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
     discourse.note_what_is_so(&facts);
     discourse.bind_names(&facts);
     let subtasks = Emitter::new(&mut discourse, facts, &stays).subtasks(clauses);
-    let confidence = if subtasks.is_empty() { 0.0 } else { discourse.confidence };
+    let confidence = if subtasks.is_empty() { 0.0 } else { discourse.confidence.value() };
     Reading {
-        decomposition: Decomposition { subtasks, assumptions: discourse.assumptions, confidence },
+        decomposition: Decomposition {
+            subtasks,
+            assumptions: discourse.assumptions,
+            confidence,
+            bans: discourse.bans,
+        },
         problems: discourse.problems,
         others: Vec::new(),
         only_goes: !clauses.is_empty() && clauses.iter().all(only_goes),

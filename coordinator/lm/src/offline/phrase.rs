@@ -18,17 +18,23 @@ struct Front {
     chained: usize,
 }
 
-impl Parser<'_> {
-    /// One noun phrase at the position, or nothing with the position unchanged.
-    pub(super) fn phrase(&mut self, depth: usize) -> Option<Phrase> {
-        let start = self.position;
-        let mut front = Front {
+impl Front {
+    fn new() -> Self {
+        Self {
             phrase: Phrase::bare(Head::Room, ""),
             quantity: None,
             sliced: false,
             plural: false,
             chained: 0,
-        };
+        }
+    }
+}
+
+impl Parser<'_> {
+    /// One noun phrase at the position, or nothing with the position unchanged.
+    pub(super) fn phrase(&mut self, depth: usize) -> Option<Phrase> {
+        let start = self.position;
+        let mut front = Front::new();
         let head = if depth > DEEPEST { None } else { self.head(&mut front) };
         let Some(head) = head else {
             self.position = start;
@@ -65,6 +71,9 @@ impl Parser<'_> {
             if word == "," && self.position > start && self.list_of_modifiers() {
                 self.position += 1;
                 continue;
+            }
+            if let Some(head) = self.by_use(front) {
+                return Some(head);
             }
             if let Some(head) = self.pronoun(word, front) {
                 return Some(head);
@@ -172,7 +181,11 @@ impl Parser<'_> {
     fn pronoun(&mut self, word: &str, front: &mut Front) -> Option<Head> {
         let next = self.word_at(1);
         let alone = next.is_none_or(|next| {
-            (is_function_word(next) && !is_determiner(next) && next != "of") || ",.".contains(next)
+            (is_function_word(next) && !is_determiner(next) && next != "of")
+                || ",.".contains(next)
+                || word == "both"
+                    && self.lexicon.adjective(&[next]).is_some()
+                    && self.longest_noun_at(self.position + 2).is_none()
         });
         let head = match word {
             "it" if self.is_miswritten_its(word) => return None,
@@ -291,7 +304,7 @@ impl Parser<'_> {
     fn food_follows(&self, offset: usize) -> bool {
         (offset..offset + 4).any(|at| {
             self.longest_noun_at(self.position + at)
-                .is_some_and(|(noun, _, _)| self.has_affordance(&noun, "sliceable"))
+                .is_some_and(|(noun, _, _)| !noun.class && self.has_affordance(&noun, "sliceable"))
         })
     }
 
@@ -445,3 +458,4 @@ pub(super) fn nouns<'a>(words: &'a [String], lexicon: &'a Lexicon) -> Vec<NounAt
 mod compound;
 mod mend;
 mod tail;
+mod usage;

@@ -1,6 +1,6 @@
 //! What a sentence is made of: clauses, noun phrases, and the closed classes of English words.
 
-use super::lexicon::{Noun, Settings, Verb};
+use super::lexicon::{Act, Noun, Settings, Verb};
 
 /// How much of what a noun names is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -208,6 +208,20 @@ impl Clause<'_> {
         self.says_any(&[
             "should", "must", "needs", "need", "shall", "be", "once", "when", "after", "before", "until",
         ]) || !self.says_any(&["is", "are", "was", "were", "left", "s"]) && !self.says_any(&["while"])
+    }
+
+    /// Whether its verb is that of the clause before it, not said again.
+    pub fn inherits_from(&self, previous: &Self) -> bool {
+        self.verb_text == previous.verb_text && !self.text.starts_with(&self.verb_text)
+    }
+
+    /// "make sure the door is closed and the lights are off": the second is to be made sure of as well.
+    pub fn go_on(&mut self, previous: &Self) {
+        let keeps = previous.verbs.iter().any(|verb| verb.act == Act::Keep);
+        if keeps && !previous.complement.is_empty() && !self.complement.is_empty() {
+            self.verbs.clone_from(&previous.verbs);
+            self.verb_text.clone_from(&previous.verb_text);
+        }
     }
 
     /// What is said later but done earlier names what "it" is: "turn on the toaster after putting bread in it".

@@ -5,7 +5,7 @@ use super::super::lexicon::{Act, Verb};
 use super::super::syntax::{
     Clause, Head, Phrase, Place, Relation, is_determiner, is_function_word, preposition,
 };
-use super::Parser;
+use super::{Parser, is_going};
 
 impl<'a> Parser<'a> {
     /// "turn the lamp on", "put it away", "put it back".
@@ -173,6 +173,10 @@ impl<'a> Parser<'a> {
 
     /// A prepositional phrase.
     pub(super) fn place(&mut self, clause: &mut Clause<'a>) -> bool {
+        if let Some(phrase) = self.somewhere() {
+            clause.places.push(Place::new(Relation::In, "in", phrase));
+            return true;
+        }
         let Some((relation, length)) = preposition(&self.rest()) else { return false };
         let start = self.position;
         self.position += length;
@@ -210,6 +214,7 @@ impl<'a> Parser<'a> {
             object.except.append(&mut phrase.except);
         }
         let said = self.text_between(start, start + length);
+        self.last_place = Some(phrase.clone());
         clause.places.push(Place::new(relation, &said, phrase));
         self.more_places(clause, relation);
         true
@@ -245,8 +250,8 @@ impl<'a> Parser<'a> {
             _ => return false,
         };
         let from = clause.places.iter().find(|place| place.relation == Relation::From);
-        let Some(from) = from.or(clause.places.first()) else { return false };
-        let mut phrase = from.phrase.clone();
+        let from = from.or(clause.places.first()).map(|place| &place.phrase);
+        let Some(mut phrase) = from.or(self.last_place.as_ref()).cloned() else { return false };
         phrase.other = true;
         (phrase.definite, phrase.indefinite) = (false, true);
         clause.places.push(Place::new(relation, "to", phrase));
@@ -266,7 +271,15 @@ impl<'a> Parser<'a> {
                 self.position = start;
                 return;
             };
-            let another_pair = relation != Relation::From && preposition(&self.rest()).is_some()
+            let mut behind = self.ahead(0);
+            if behind.skip_joins() {
+                behind.phrases(0);
+            }
+            behind.position += usize::from(behind.peek().is_some_and(is_going));
+            let goes_elsewhere = preposition(&behind.rest())
+                .is_some_and(|(other, _)| other != Relation::From && other != Relation::With);
+            let another_pair = relation != Relation::From
+                && (goes_elsewhere || preposition(&self.rest()).is_some())
                 || matches!(self.peek(), Some("on" | "off" | "should" | "must" | "is" | "are" | "needs"));
             if another_pair {
                 self.position = start;

@@ -5,7 +5,7 @@ use lamma_domains::goal::PropertyValue;
 use super::super::lexicon::{Act, Settings, Verb};
 use super::super::mention::Spoken;
 use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
-use super::{Change, Interpreter};
+use super::{Change, Fact, Interpreter};
 
 impl<'a> Interpreter<'_, 'a> {
     pub(super) fn set(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
@@ -23,8 +23,13 @@ impl<'a> Interpreter<'_, 'a> {
             .collect();
         let objects = self.objects(clause, &at, verb.wants.as_deref());
         let mut changed = Vec::new();
-        let microwaved = verb.act == Act::Cook && clause.places.iter().any(is_microwave);
         for &entity in &objects {
+            let within = |fact: &Fact| {
+                matches!(fact.change, Change::Inside(at) if self.discourse.entities[at].kind() == "Microwave")
+                    && fact.entity == entity
+            };
+            let microwaved = verb.act == Act::Cook
+                && (clause.places.iter().any(is_microwave) || self.facts.iter().any(within));
             let target = self.switch_of(entity, &verb.set);
             let mut states = self.discourse.adapted_states(target, verb);
             if microwaved && states.remove("isCooked").is_some() {
@@ -59,8 +64,11 @@ impl<'a> Interpreter<'_, 'a> {
         let is_tool = |place: &Place| matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| verb.tools.contains(kind)));
         let takes = |place: &&Place| {
             (place.relation == Relation::In && cuts || place.relation == Relation::To && !is_tool(place))
-                && matches!(&place.phrase.head, Head::Noun(noun)
-                    if noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")))
+                && match &place.phrase.head {
+                    Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")),
+                    Head::Pronoun { plural } => !plural && place.relation == Relation::To,
+                    _ => false,
+                }
         };
         let Some(place) = clause.places.iter().find(takes) else { return };
         if let [place, ..] = self.discourse.mention(&place.phrase, &[], Some("receptacle"))[..] {

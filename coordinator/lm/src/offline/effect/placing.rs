@@ -14,6 +14,9 @@ impl<'a> Interpreter<'_, 'a> {
         if !clause.complement.is_empty() && clause.places.is_empty() {
             return self.keep(clause);
         }
+        if let Some(laid) = self.laid_with(clause) {
+            return self.place(&laid, verb, next);
+        }
         let (goal, inner, at) = self.sort_places(clause);
         if let Some(goal) = goal {
             if let Some(inner) = inner {
@@ -93,6 +96,29 @@ impl<'a> Interpreter<'_, 'a> {
                     if noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")))
         };
         goal.phrase.at.iter().find(takes).filter(|_| vessel).cloned()
+    }
+
+    /// "set the table with a plate and a fork": the plate and the fork go on the table.
+    fn laid_with(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
+        let [place] = clause.objects.as_slice() else { return None };
+        let with = |place: &&Place| place.relation == Relation::With && self.is_movable(&place.phrase);
+        let things: Vec<Phrase> = clause
+            .places
+            .iter()
+            .filter(with)
+            .map(|place| place.phrase.clone())
+            .chain(place.with.clone())
+            .collect();
+        let takes = matches!(&place.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
+            self.discourse.scene.affords(kind, "receptacle") && !self.discourse.scene.affords(kind, "pickupable")
+        }));
+        (takes && !things.is_empty()).then(|| {
+            let mut laid = clause.clone();
+            let place = Phrase { with: Vec::new(), ..place.clone() };
+            laid.places = vec![Place::new(Relation::In, "on", place)];
+            laid.objects = things;
+            laid
+        })
     }
 
     /// "go to the fridge and open it": going is no goal, but "it" is the fridge.
@@ -182,7 +208,12 @@ impl<'a> Interpreter<'_, 'a> {
     /// The objects end in the place.
     pub(super) fn put(&mut self, clause: &Clause<'a>, at: &[Place], goal: &Place) -> Spoken {
         let mut objects = self.objects(clause, at, Some("pickupable"));
-        let places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
+        let mut places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
+        if matches!(goal.phrase.head, Head::Pronoun { .. })
+            && places.iter().any(|place| objects.contains(place))
+        {
+            places = self.place_spoken_of(&objects).into_iter().collect();
+        }
         self.leave_what_does_not_fit(clause, &mut objects, &places);
         if let (true, Some(&place)) = (goal.on_top, places.first()) {
             let kind = self.discourse.entities[place].kind().to_owned();
@@ -200,6 +231,15 @@ impl<'a> Interpreter<'_, 'a> {
             }
         }
         Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
+    }
+
+    /// The place that something else was put in last: "fill the cup and put it there too".
+    fn place_spoken_of(&self, objects: &[usize]) -> Option<usize> {
+        let places = self.discourse.spoken.iter().rev().flat_map(|spoken| &spoken.places);
+        places.copied().find(|place| {
+            let kind = self.discourse.entities[*place].kind();
+            !objects.contains(place) && self.discourse.scene.affords(kind, "receptacle")
+        })
     }
 
     /// "everything in the fridge": what the fridge takes.
@@ -232,7 +272,7 @@ impl<'a> Interpreter<'_, 'a> {
     }
 
     /// Places one thing, and lets what the receptacle takes decide what both are.
-    fn put_in(&mut self, entity: usize, place: usize) {
+    pub(super) fn put_in(&mut self, entity: usize, place: usize) {
         self.discourse.fit(entity, place);
         self.add(entity, Change::Inside(place));
     }

@@ -81,7 +81,11 @@ impl Discourse<'_> {
     }
 
     fn can_be_cooked(&self, kind: &str) -> bool {
-        self.scene.affords(kind, "cookable") || self.cooks_in_slices(kind)
+        let opened = || {
+            self.lexicon.is_small("cooked_once_open", &[&kind.to_lowercase()])
+                && (self.scene.team_has(&["SliceObject"]) || self.scene.team_has(&["BreakObject"]))
+        };
+        self.scene.affords(kind, "cookable") || self.cooks_in_slices(kind) || opened()
     }
 
     fn cooks_in_slices(&self, kind: &str) -> bool {
