@@ -115,7 +115,7 @@ impl<'a> Discourse<'a> {
             Head::Noun(noun) => self.noun(noun, phrase, at, wants),
             Head::Named(name) => self.named(name),
             Head::Pronoun { plural } => self.pronoun(*plural, wants),
-            Head::Slices => self.slices(phrase.quantity),
+            Head::Slices => self.slices(matches!(phrase.quantity, Quantity::Plural | Quantity::All)),
             Head::Everything => self.everything(phrase, at, wants),
             // "the door", "the lid": of what was spoken of.
             Head::Room if wants == Some("openable") => self.pronoun(false, wants),

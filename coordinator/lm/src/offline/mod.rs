@@ -37,6 +37,9 @@ pub(crate) use text::damerau_levenshtein;
 /// Below this confidence it asks.
 const THRESHOLD: f64 = 0.5;
 
+/// A strong situation that explains so many words stands for the whole sentence, not for a clause of it.
+const SURE_WHOLE: usize = 3;
+
 /// `true`, as a property's value.
 fn yes() -> PropertyValue {
     PropertyValue::Flag(true)
@@ -184,8 +187,15 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         .collect();
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
     let mut reading = word_by_word(&words, lexicon, scene);
+    let strong = situation::ranked(lexicon.situations(), &situation::words_of(&words), true);
+    let explained = strong.first().map_or(0, |(_, explained)| *explained);
     let absent = reading.problems.iter().any(|problem| problem.starts_with("there is no "));
-    if !absent
+    let one_sentence = !words[..words.len().saturating_sub(1)].contains(&".".to_owned());
+    if explained >= SURE_WHOLE && one_sentence && !reading.concrete {
+        if let Some(whole) = as_situation(&words, instruction, lexicon, scene) {
+            reading = whole;
+        }
+    } else if (!absent || explained >= 2)
         && !reading.concrete
         && (reading.decomposition.subtasks.is_empty() || reading.decomposition.confidence < THRESHOLD)
     {
@@ -258,11 +268,10 @@ fn one_clause<'a>(
     let clause = &clauses[index];
     let situations = lexicon.situations();
     let words = situation::words_of(&clause.words);
-    if let Some((strong, _)) = situation::best(situations, &words, true)
-        && !clause.negated
+    if !clause.negated
         && is_weak(clause, lexicon)
         && !says_where(clause, interpreter.discourse.scene)
-        && interpreter.situation(index, strong, &words)
+        && interpreter.first_situation(index, &situation::ranked(situations, &words, true), &words)
     {
         interpreter.discourse.spoken.push(Spoken::default());
         return;
@@ -276,14 +285,11 @@ fn one_clause<'a>(
     // What was named and is not here is not to be replaced by what a situation would do.
     let says_little = is_weak(clause, lexicon)
         || !clause.objects.iter().any(|p| matches!(p.head, syntax::Head::Noun(_) | syntax::Head::Named(_)));
-    if failed
-        && says_little
-        && (!absent || is_weak(clause, lexicon))
-        && let Some((vague, _)) = situation::best(situations, &words, false)
-    {
+    if failed && says_little && (!absent || is_weak(clause, lexicon)) {
+        let ranked = situation::ranked(situations, &words, false);
         let literal = Snapshot::take(interpreter);
         before.restore(interpreter);
-        if interpreter.situation(index, vague, &words) {
+        if interpreter.first_situation(index, &ranked, &words) {
             interpreter.discourse.spoken.push(Spoken::default());
             return;
         }
@@ -458,7 +464,7 @@ fn as_situation(
     scene: &Scene<'_>,
 ) -> Option<Reading> {
     let words = situation::words_of(words);
-    let (vague, _) = situation::best(lexicon.situations(), &words, false)?;
+    let ranked = situation::ranked(lexicon.situations(), &words, false);
     let mut discourse = Discourse::new(lexicon, scene);
     let clauses = [Clause {
         text: instruction.trim().to_owned(),
@@ -476,7 +482,7 @@ fn as_situation(
         words: words.clone(),
     }];
     let mut interpreter = Interpreter::new(&mut discourse, &clauses);
-    if !interpreter.situation(0, vague, &words) {
+    if !interpreter.first_situation(0, &ranked, &words) {
         return None;
     }
     let facts = interpreter.facts;

@@ -395,7 +395,12 @@ impl Parser<'_> {
                         found.push(chosen);
                     }
                 }
-                Some(phrase) => {
+                Some(mut phrase) => {
+                    // "all the cabinets and drawers"
+                    let all = found.last().is_some_and(|last| last.quantity == Quantity::All);
+                    if all && phrase.quantity == Quantity::Plural {
+                        phrase.quantity = Quantity::All;
+                    }
                     // "both the plate and the bowl": one of each.
                     if let [first] = found.as_mut_slice()
                         && first.text.starts_with("both ")

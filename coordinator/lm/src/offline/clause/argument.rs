@@ -67,6 +67,34 @@ impl<'a> Parser<'a> {
         true
     }
 
+    /// "the fridge should contain the milk": it is to be put there.
+    pub(super) fn contents_told(&mut self, clause: &mut Clause<'a>) -> bool {
+        let [vessel] = clause.objects.as_slice() else { return false };
+        let takes = matches!(&vessel.head, Head::Noun(noun) if self.has_affordance(noun, "receptacle"));
+        let length = usize::from(matches!(self.peek(), Some("should" | "must" | "shall" | "to")));
+        if !takes || !matches!(self.word_at(length), Some("contain" | "contains" | "hold" | "holds")) {
+            return false;
+        }
+        let start = self.position;
+        self.position += length + 1;
+        let things = self.phrases(0);
+        if things.is_empty() {
+            self.position = start;
+            return false;
+        }
+        clause.places = vec![Place::new(Relation::In, "in", vessel.clone())];
+        clause.objects = things;
+        clause.verbs = self
+            .lexicon
+            .verbs("put")
+            .into_iter()
+            .filter(|(_, p, _)| p.is_empty())
+            .map(|(_, _, v)| v)
+            .collect();
+        clause.verb_text = "put".to_owned();
+        true
+    }
+
     /// "put it where it belongs": more than one word behind the object.
     pub(super) fn long_particle(&self, first: &str) -> Option<(&'a Verb, usize)> {
         let rest = self.rest();
@@ -131,6 +159,7 @@ impl<'a> Parser<'a> {
                 [",", ".", "and", "then", "before", "after", "while", "but", "so", "again", "please"]
                     .contains(next)
                     || preposition(&[next]).is_some() && self.position > start
+                    || self.lexicon.longest_small("polite", &rest[length..]).is_some_and(|length| length > 1)
             });
             let particle = self.position == start && preposition(&rest[..length]).is_some();
             if !ends

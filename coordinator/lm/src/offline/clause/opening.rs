@@ -11,6 +11,8 @@ pub(super) struct Opening {
     pub(super) negated: bool,
     pub(super) condition: bool,
     pub(super) robots: Vec<String>,
+    /// A new sentence.
+    pub(super) sentence: bool,
     /// `before you …, …`: this clause comes after the next.
     pub(super) after_next: bool,
     /// `… after you …`: this clause comes before the one said before it.
@@ -25,6 +27,7 @@ impl Parser<'_> {
             negated: false,
             condition: false,
             robots: Vec::new(),
+            sentence: self.position.checked_sub(1).is_some_and(|at| self.words[at] == "."),
             after_next: false,
             before_previous: false,
         };
@@ -56,6 +59,7 @@ impl Parser<'_> {
             if self.reason() {
                 continue;
             }
+            opening.sentence |= word == ".";
             match word {
                 "let" if self.ahead(1).verbs_here().is_some() => {}
                 "go" | "come" if self.another_verb_follows() => {}
@@ -63,7 +67,7 @@ impl Parser<'_> {
                 "have" | "let" if self.ahead(1).robot().is_some() => {}
                 "if" => {
                     opening.condition = true;
-                    opening.before_previous = !first;
+                    opening.before_previous = !first && !self.is_fronted();
                 }
                 "to" if self.word_at(1) == Some("be") && self.word_at(2).is_some() => self.position += 1,
                 "," | "." | "and" | "so" | "but" | "plus" | "first" | "firstly" | "to" | "you" | "i"
@@ -76,7 +80,7 @@ impl Parser<'_> {
                     }
                 }
                 "after" | "once" | "when" => {
-                    if first {
+                    if first || self.is_fronted() {
                         // The next clause follows by its position.
                     } else {
                         opening.before_previous = true;
@@ -119,6 +123,12 @@ impl Parser<'_> {
             && ahead.verbs_here().is_some_and(|(form, verbs, _)| {
                 form == VerbForm::Base && verbs.iter().any(|verb| verb.act != Act::Go)
             })
+    }
+
+    /// "… . Once it is clean, put it away": what is said first is done first.
+    fn is_fronted(&self) -> bool {
+        let before = self.position.checked_sub(1).and_then(|at| self.words.get(at));
+        before.is_some_and(|word| word == "." || word == "and")
     }
 
     /// "so I can see", "because it is late": passes over why.

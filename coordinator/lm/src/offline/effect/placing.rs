@@ -45,6 +45,7 @@ impl<'a> Interpreter<'_, 'a> {
             let again = |phrase: &Phrase| {
                 matches!(phrase.head, Head::Pronoun { .. } | Head::Slices | Head::Everything)
                     || clause.objects.iter().any(|mine| mine.head == phrase.head)
+                    || clause.objects.iter().any(|mine| is_one_of(phrase, mine))
             };
             (next.objects.is_empty() || next.objects.iter().any(again))
                 && next
@@ -208,6 +209,11 @@ impl<'a> Interpreter<'_, 'a> {
     /// The objects end in the place.
     pub(super) fn put(&mut self, clause: &Clause<'a>, at: &[Place], goal: &Place) -> Spoken {
         let mut objects = self.objects(clause, at, Some("pickupable"));
+        let defaults: Vec<&String> = clause.verbs.iter().flat_map(|verb| &verb.default).collect();
+        let mut goal = goal.clone();
+        if let (Head::Noun(noun), false) = (&mut goal.phrase.head, defaults.is_empty()) {
+            noun.kinds.sort_by_key(|kind| !defaults.contains(&kind));
+        }
         let mut places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
         if matches!(goal.phrase.head, Head::Pronoun { .. })
             && places.iter().any(|place| objects.contains(place))
@@ -342,5 +348,15 @@ impl<'a> Interpreter<'_, 'a> {
             .filter_map(|parent| scene.named(parent))
             .map(|parent| parent.kind.clone())
             .next()
+    }
+}
+
+/// "the food: the apple goes …": whether one phrase names a member of another's class.
+fn is_one_of(phrase: &Phrase, class: &Phrase) -> bool {
+    match (&phrase.head, &class.head) {
+        (Head::Noun(one), Head::Noun(class)) => {
+            class.class && one.kinds.iter().any(|kind| class.kinds.contains(kind))
+        }
+        _ => false,
     }
 }

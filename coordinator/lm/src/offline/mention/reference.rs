@@ -6,18 +6,12 @@ use super::super::syntax::{Phrase, Place, Quantity};
 use super::{Discourse, Which};
 
 impl Discourse<'_> {
-    /// "the slices": of what was sliced last, all of it if several things were.
-    pub(super) fn slices(&mut self, quantity: Quantity) -> Vec<usize> {
-        let sliceable =
-            |e: usize| self.entities[e].kinds.iter().any(|kind| self.scene.affords(kind, "sliceable"));
-        if quantity != Quantity::One {
-            let groups = self.spoken.iter().rev().map(|spoken| spoken.objects.as_slice());
-            let several =
-                groups.take(2).find(|objects| objects.len() > 1 && objects.iter().all(|&e| sliceable(e)));
-            if let Some(objects) = several {
-                let most = if let Quantity::Count(count) = quantity { count } else { objects.len() };
-                return objects.iter().copied().take(most).collect();
-            }
+    /// "the slices": of all that was sliced last, else of what could be.
+    pub(super) fn slices(&mut self, plural: bool) -> Vec<usize> {
+        let sliced = |&entity: &usize| self.entities[entity].asked.contains_key("isSliced");
+        let last = self.spoken.iter().rev().find(|spoken| spoken.objects.iter().any(sliced));
+        if let Some(spoken) = last.filter(|spoken| plural && spoken.objects.len() > 1) {
+            return spoken.objects.iter().copied().filter(sliced).collect();
         }
         let last = (0..self.entities.len())
             .rev()
