@@ -55,7 +55,7 @@ impl<'a> Interpreter<'_, 'a> {
             let text = format!("\"not {}\" cannot be put as a goal, and nobody watches over it", clause.text);
             self.discourse.assume(text, 0.95);
         }
-        let places = self.places_spoken_of(&clause.places);
+        said.extend(self.places_spoken_of(&clause.places));
         let prohibition = Prohibition {
             clause: self.clause,
             text: clause.text.clone(),
@@ -66,7 +66,7 @@ impl<'a> Interpreter<'_, 'a> {
             soft: false,
         };
         self.prohibitions.push(prohibition);
-        Spoken { objects: entities, places: if said.is_empty() { places } else { said }, ..Spoken::default() }
+        Spoken { objects: entities, places: said, ..Spoken::default() }
     }
 
     /// "keep the fridge closed": also on the way, if it is so now and nothing else asks for it to be opened.
