@@ -9,6 +9,7 @@ use lamma_planner::{Makespan, MakespanLimits, OperatorId, Scheduler, Task};
 
 use crate::problem::joint_problem;
 use crate::team::Team;
+use crate::travel_bound::travel_floor;
 
 /// The task of the whole team as one actor, grounded.
 #[derive(Debug)]
@@ -76,12 +77,15 @@ impl JointTask {
     }
 }
 
-/// [`JointTask::floor`] of a team in a state; `None` if the goal is out of reach.
+/// [`JointTask::floor`] of a team in a state, or [`travel_floor`] if that says more; `None` if the goal is out of reach.
 pub fn makespan_lower_bound(
     team: &Team,
     available: &[usize],
     facts: &BTreeSet<GroundAtom>,
     goal: &Condition,
 ) -> Option<u32> {
-    JointTask::new(team, available, facts, goal).ok()?.floor()
+    let joint = JointTask::new(team, available, facts, goal).ok()?;
+    let floor = joint.floor()?;
+    let travelled = team.travel.as_ref().and_then(|travel| travel_floor(&joint.task, travel, team, facts));
+    Some(floor.max(travelled.unwrap_or(0)))
 }

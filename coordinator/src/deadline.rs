@@ -43,6 +43,7 @@ impl Coordinator {
             | Phase::Allocating(_)
             | Phase::Combining(..)
             | Phase::PlanningJointly(_)
+            | Phase::Writing(..)
             | Phase::Finished => None,
         }
     }
@@ -82,6 +83,7 @@ impl Coordinator {
             | Phase::Allocating(_)
             | Phase::Combining(..)
             | Phase::PlanningJointly(_)
+            | Phase::Writing(..)
             | Phase::Finished => return,
         };
         if late.is_empty() {

@@ -11,11 +11,15 @@ use lamma_domains::condition::condition as goal;
 use lamma_domains::goal::{Content, GoalEntry};
 use lamma_domains::view::views;
 use lamma_domains::world::{Thing, WorldSetup};
-use lamma_lm::{Answer, Clarification, Decomposition, LanguageModel, Request, RobotView, Subtask};
+use lamma_lm::{
+    Answer, Clarification, Decomposition, LanguageModel, LmError, Request, RobotView, Script, ScriptRequest,
+    Subtask,
+};
 use lamma_pddl::ast::GroundAtom;
 
 use crate::bans::Ban;
 use crate::understand::{GoalGroup, GoalItem, ScoreGoal, Subgoal, Understanding, Understood};
+use crate::written::{NotWritten, WriteInput};
 
 /// What the person wants and how it is to be read.
 #[derive(Clone, Debug)]
@@ -40,6 +44,9 @@ pub fn decompose(
     let decomposition = match model.decompose(&request, cancel) {
         Ok(Answer::Understood(decomposition)) => decomposition,
         Ok(Answer::Clarify(clarification)) => return Understood::Ask(clarification),
+        Err(error @ (LmError::Unusable { .. } | LmError::Deadline(_))) => {
+            return Understood::NoAnswer(error.to_string());
+        }
         Err(error) => return Understood::Failed(error.to_string()),
     };
     match ground(world, &decomposition) {
@@ -53,6 +60,23 @@ pub fn decompose(
             ..Clarification::default()
         }),
     }
+}
+
+/// Has the model write the plan itself.
+pub fn write(
+    model: &mut dyn LanguageModel,
+    world: &WorldSetup,
+    input: &WriteInput,
+    instruction: &Instruction,
+    check: &dyn Fn(&Script) -> Vec<String>,
+    cancel: &AtomicBool,
+) -> Result<Script, NotWritten> {
+    let asked =
+        ScriptRequest { request: request(world, &input.facts, instruction), parts: input.parts.clone() };
+    model.write(&asked, check, cancel).map_err(|error| match error {
+        LmError::Unusable { .. } | LmError::Deadline(_) => NotWritten::Unusable(error.to_string()),
+        other => NotWritten::Failed(other.to_string()),
+    })
 }
 
 fn nothing_to_do(instruction: &Instruction, decomposition: &Decomposition) -> Clarification {

@@ -139,7 +139,7 @@ impl Coordinator {
     /// Steps may be chosen anew only where the end is all that was asked for.
     fn shorten(&self, round: &Round) -> Shorten {
         let subgoals = self.understanding.as_ref().map_or(&[][..], |u| &u.subgoals);
-        let free = subgoals.iter().all(|s| s.lasting && s.after.is_empty());
+        let free = self.config.method.divide && subgoals.iter().all(|s| s.lasting && s.after.is_empty());
         Shorten {
             available: self.roster.available(),
             bound: round.allocation.lower_bound,
@@ -191,6 +191,11 @@ impl Coordinator {
             .filter_map(|a| self.roster.report(a).map(|r| (a, r)))
             .filter(|(_, r)| r.epoch == self.epoch)
             .find_map(|(a, r)| r.refused.clone().map(|refusal| (a, refusal)));
+        if self.is_written() && !done {
+            let skipped = self.skipped(&following);
+            self.put_phase(Phase::Executing(following));
+            return self.skip(skipped);
+        }
         self.put_phase(Phase::Executing(following));
         if done {
             return self.executed();
@@ -230,7 +235,7 @@ impl Coordinator {
     fn executed(&mut self) {
         let Some(facts) = self.view.state() else { return };
         let reached = self.reaches(&world_state(&facts), &self.final_goal());
-        if reached {
+        if reached || self.is_written() {
             return self.finish(OutcomeKind::Success, None);
         }
         self.fault("all steps are done and the goal does not hold: the world has changed meanwhile");

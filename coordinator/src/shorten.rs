@@ -6,13 +6,17 @@ use std::sync::atomic::AtomicBool;
 use lamma_pddl::ast::Condition;
 use lamma_planner::interpreter::{GroundCondition, Interpreter, WorldState};
 use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder};
-use lamma_planner::{MakespanLimits, Schedule};
+use lamma_planner::{MakespanLimits, OperatorId, Schedule};
 
 use crate::allocation::PackageSpec;
 use crate::bound::JointTask;
 use crate::combine::{TeamPlan, team_plan};
+use crate::hurry::Hurry;
 use crate::merge::Merger;
 use crate::team::Team;
+
+/// Changes of a plan that are tried where going takes its time.
+const CHANGES: u32 = 4_000;
 
 /// What may be done about a plan.
 #[derive(Clone, Debug)]
@@ -52,6 +56,9 @@ pub fn shorten(
     cancel: &AtomicBool,
 ) -> Combined {
     let mut combined = Combined { plan, end: merger.state.clone(), packages: None, bound: how.bound };
+    if team.travel.is_some() {
+        return sooner(team, interpreter, merger, combined, goal, how, cancel);
+    }
     let unit_steps = team.domain.actions.iter().all(|action| action.duration.is_none());
     if how.limits.conflicts == 0 || combined.plan.makespan <= how.bound || !unit_steps {
         return combined;
@@ -87,21 +94,75 @@ fn replan(
     goal: &Condition,
     subgoals: &[Condition],
 ) -> Option<(TeamPlan, WorldState, Vec<PackageSpec>)> {
-    let mut merger = Merger::new(initial.clone());
-    for operator in schedule.operators() {
-        let action = interpreter.instantiate(&joint.task.act(operator)).ok()?;
-        interpreter.apply(&mut merger.state, &action).ok()?;
-        merger.steps.push(TeamStep { agent: joint.member_of[operator.index()] as usize, action });
+    let steps = scheduled(interpreter, joint, schedule)?;
+    let mut end = initial.clone();
+    for step in &steps {
+        interpreter.apply(&mut end, &step.action).ok()?;
     }
     let ground = interpreter.ground_condition(goal).ok()?;
-    if !interpreter.holds(&merger.state, &ground) {
+    if !interpreter.holds(&end, &ground) {
         return None;
     }
-    let order = deorder(interpreter, initial, merger.steps.clone(), &ground, &[]).ok()?;
+    let order = deorder(interpreter, initial, steps, &ground, &[]).ok()?;
+    let packages = serving(interpreter, &order, &end, subgoals)?;
+    Some((team_plan(team, &order, Vec::new()), end, packages))
+}
+
+/// The steps of a schedule, one after the other.
+fn scheduled(interpreter: &Interpreter, joint: &JointTask, schedule: &Schedule) -> Option<Vec<TeamStep>> {
+    let step = |operator: OperatorId| {
+        let action = interpreter.instantiate(&joint.task.act(operator)).ok()?;
+        Some(TeamStep { agent: joint.member_of[operator.index()] as usize, action })
+    };
+    schedule.operators().map(step).collect()
+}
+
+/// Where going takes its time: the plan improved for that, from the better of the combined plan and the one with the
+/// fewest steps. The bound stays as it is.
+fn sooner(
+    team: &Team,
+    interpreter: &Interpreter,
+    merger: &Merger,
+    combined: Combined,
+    goal: &Condition,
+    how: &Shorten,
+    cancel: &AtomicBool,
+) -> Combined {
+    let better = || {
+        let subgoals = how.subgoals.as_ref()?;
+        let ground = interpreter.ground_condition(goal).ok()?;
+        let mut plans = vec![merger.steps.clone()];
+        if let Ok(joint) = JointTask::new(team, &how.available, &merger.initial.facts, goal)
+            && let Some(found) = joint.shortest(joint.floor().unwrap_or(0), None, &how.limits, cancel)
+        {
+            plans.extend(found.schedule.and_then(|schedule| scheduled(interpreter, &joint, &schedule)));
+        }
+        let members = how.available.iter().map(|&m| (m, team.members[m].name.clone())).collect();
+        let (initial, budget) = (&merger.initial, CHANGES);
+        let hurry = Hurry { interpreter, initial, goal: &ground, members, budget };
+        let (order, end) = hurry.run(&plans, cancel)?;
+        let packages = serving(interpreter, &order, &end, subgoals)?;
+        Some((team_plan(team, &order, Vec::new()), end, packages))
+    };
+    match better() {
+        Some((plan, end, packages)) if plan.makespan < combined.plan.makespan => {
+            Combined { plan, end, packages: Some(packages), ..combined }
+        }
+        _ => combined,
+    }
+}
+
+/// Who serves which sub-task.
+fn serving(
+    interpreter: &Interpreter,
+    order: &PartialOrder,
+    end: &WorldState,
+    subgoals: &[Condition],
+) -> Option<Vec<PackageSpec>> {
     let mut packages = Vec::new();
     for (index, subgoal) in subgoals.iter().enumerate() {
         let condition = interpreter.ground_condition(subgoal).ok()?;
-        for member in servants(&order, &condition, &merger.state) {
+        for member in servants(order, &condition, end) {
             packages.push(PackageSpec {
                 member,
                 goal: subgoal.clone(),
@@ -112,7 +173,7 @@ fn replan(
             });
         }
     }
-    Some((team_plan(team, &order, Vec::new()), merger.state, packages))
+    Some(packages)
 }
 
 /// Who contributes to a goal: the agents of the steps from which causal links lead to it.

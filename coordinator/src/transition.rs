@@ -13,6 +13,7 @@ use crate::combine::{TeamPlan, world_state};
 use crate::job::{CoordinatorDone, CoordinatorJob};
 use crate::machine::Coordinator;
 use crate::merge::Merger;
+use crate::method::Steps;
 use crate::phase::{Following, Phase, Round};
 use crate::result::{ActionResult, OutcomeKind};
 use crate::shorten::Combined;
@@ -35,7 +36,8 @@ impl Coordinator {
         if let Phase::Decomposing(job)
         | Phase::Allocating(job)
         | Phase::Combining(job, _)
-        | Phase::PlanningJointly(job) = &self.phase
+        | Phase::PlanningJointly(job)
+        | Phase::Writing(job, _) = &self.phase
         {
             self.outputs.push_back(Output::Cancel(*job));
         }
@@ -107,11 +109,12 @@ impl Coordinator {
     /// Steps that were applied go into the history, later than everything there.
     pub(crate) fn record(&mut self, plan: &TeamPlan, done: &[StepIndex]) {
         self.note_reached_on_the_way(plan, done);
-        let base = self.history.iter().map(|a| a.start + 1.0).fold(0.0, f64::max);
+        let base = self.history.iter().map(ActionResult::end).fold(0.0, f64::max);
         for step in plan.timeline.iter().filter(|s| s.index < done[s.member]) {
             let robot = self.config.team.members[step.member].name.to_string();
             self.history.push(ActionResult {
                 start: base + step.start,
+                duration: step.duration,
                 action: own_name(&step.act.action, &robot).to_string(),
                 args: step.act.args.iter().skip(1).map(|a| own_name(a, &robot).to_string()).collect(),
                 robot,
@@ -144,6 +147,7 @@ impl Coordinator {
                 | Phase::Allocating(_)
                 | Phase::Combining(..)
                 | Phase::PlanningJointly(_)
+                | Phase::Writing(..)
                 | Phase::Finished => return,
             }
             if before == std::mem::discriminant(&self.phase) && epoch == self.epoch {
@@ -191,9 +195,18 @@ impl Coordinator {
                 .map(|a| self.view.frame().map_or(StepIndex(0), |f| f.closed(AgentId(a))))
                 .collect();
             self.record(&plan, &done);
+            if let Some(written) = &mut self.written {
+                written.advance(&done);
+            }
         }
         if self.roster.lost() != self.granted_lost {
             return self.begin_epoch();
+        }
+        if self.written.is_some() {
+            return self.carry_on_written();
+        }
+        if self.config.method.steps == Steps::Written {
+            return self.write_plan(Vec::new(), None);
         }
         if self.understanding.is_some() {
             return self.plan_for_team();
@@ -251,7 +264,8 @@ impl Coordinator {
                 for assumption in &understanding.assumptions {
                     self.event(EventKind::Note, format!("assuming {assumption}"));
                 }
-                self.understanding = Some(understanding);
+                let divide = self.config.method.divide;
+                self.understanding = Some(if divide { understanding } else { understanding.undivided() });
                 if self.roster.lost() == self.granted_lost {
                     self.plan_for_team()
                 } else {
@@ -263,6 +277,7 @@ impl Coordinator {
                 let ask = serde_json::to_value(&clarification).ok();
                 self.finish_with(OutcomeKind::NeedsClarification, Some(question), ask);
             }
+            Understood::NoAnswer(why) => self.finish(OutcomeKind::GaveUp, Some(why)),
             Understood::Failed(why) => self.finish(OutcomeKind::Error, Some(why)),
         }
     }
@@ -284,6 +299,9 @@ impl Coordinator {
                 let text = format!("{} goes to {}", u.subgoals[s].id, names.join(" and "));
                 self.event(EventKind::Note, text);
             }
+        }
+        if self.is_written() {
+            return self.write_as_allocated(allocation);
         }
         let merger = Merger::new(world_state(&facts));
         let round = Round::new(allocation, merger, self.directives.len());
@@ -334,7 +352,8 @@ impl Coordinator {
         if self.first_plan.is_none() {
             // Later plans start where the first has led: what is proved of them is not about the whole.
             self.lower_bound = Some(bound);
-            self.first_plan = Some((plan.makespan, plan.timeline.len()));
+            let busy = plan.timeline.iter().map(|step| step.duration).sum();
+            self.first_plan = Some((plan.makespan, busy));
         }
         let mut steps = plan.steps.iter().flatten();
         if let Some(step) = steps.find(|step| self.bans().iter().any(|ban| ban.forbids(&step.act))) {
@@ -411,6 +430,7 @@ impl Coordinator {
             | Phase::Planning(_)
             | Phase::Combining(..)
             | Phase::PlanningJointly(_)
+            | Phase::Writing(..)
             | Phase::Executing(_) => self.replan("the team has changed"),
         }
     }
@@ -431,13 +451,17 @@ impl Coordinator {
             (Phase::PlanningJointly(id), CoordinatorDone::PlannedJointly(plan)) if *id == job => {
                 self.planned_jointly(plan);
             }
+            (Phase::Writing(id, _), CoordinatorDone::Written(plan)) if *id == job => {
+                self.plan_written(plan.map(|plan| *plan));
+            }
             // The answer to a question that is no longer asked.
             (
                 _,
                 CoordinatorDone::Understood(_)
                 | CoordinatorDone::Allocated(_)
                 | CoordinatorDone::Combined(_)
-                | CoordinatorDone::PlannedJointly(_),
+                | CoordinatorDone::PlannedJointly(_)
+                | CoordinatorDone::Written(_),
             ) => {}
         }
     }

@@ -87,6 +87,24 @@ pub struct Understanding {
 }
 
 impl Understanding {
+    /// The same as one task: what is reached on the way, and in which order, is lost.
+    pub fn undivided(self) -> Self {
+        let lasting = || self.subgoals.iter().filter(|s| s.lasting);
+        let texts: Vec<&str> = lasting().map(|s| s.text.as_str()).collect();
+        let mut advice: Vec<String> = lasting().flat_map(|s| s.advice.clone()).collect();
+        advice.sort();
+        advice.dedup();
+        let whole = Subgoal {
+            id: "s1".into(),
+            text: texts.join(", "),
+            goal: self.final_goal(),
+            after: Vec::new(),
+            lasting: true,
+            advice,
+        };
+        Understanding { subgoals: vec![whole], ..self }
+    }
+
     /// Everything that shall hold at the end.
     pub fn final_goal(&self) -> Condition {
         Condition::And(self.subgoals.iter().filter(|s| s.lasting).map(|s| s.goal.clone()).collect())
@@ -100,6 +118,8 @@ pub enum Understood {
     Yes(Understanding),
     /// Ask first.
     Ask(Clarification),
-    /// Neither model nor fall-back gave an answer.
+    /// The model's answers cannot be used and nothing is to step in for it.
+    NoAnswer(String),
+    /// Neither model nor fall-back could be asked.
     Failed(String),
 }

@@ -4,11 +4,12 @@
 //! up here as a refusal, not as a wrong world.
 
 use std::collections::{BTreeSet, VecDeque};
+use std::sync::Arc;
 
 use lamma_pddl::Name;
 use lamma_pddl::ast::{Domain, Init, TypedName};
-use lamma_planner::GroundAct;
 use lamma_planner::interpreter::{Change, Interpreter, WorldState};
+use lamma_planner::{GroundAct, Travel};
 use lamma_protocol::frame::write_frame;
 use lamma_protocol::message::{Ack, Act, Grant, Message, Refusal, RefusalKind, Request, Verdict, Vocabulary};
 use lamma_protocol::{
@@ -53,6 +54,8 @@ pub struct WorldConfig {
     pub step_ms: u64,
     /// What happens without the team.
     pub events: Vec<Event>,
+    /// How long going takes, where it takes its time.
+    pub travel: Option<Arc<Travel>>,
 }
 
 /// A world that cannot be.
@@ -98,6 +101,7 @@ impl Arbiter {
     pub fn new(config: WorldConfig) -> Result<Self, ArbiterError> {
         let interpreter =
             Interpreter::new(&config.domain, &config.objects).map_err(|e| ArbiterError(e.to_string()))?;
+        let interpreter = interpreter.with_travel(config.travel);
         let state = interpreter.initial(&config.init).map_err(|e| ArbiterError(e.to_string()))?;
         let agents = config.agents.len();
         let mut arbiter = Arbiter {

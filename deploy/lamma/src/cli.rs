@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::method::{MethodArg, Without};
 use crate::world::Privacy;
 
 mod member;
@@ -168,6 +169,9 @@ pub struct CommonArgs {
     /// How long the simulator takes for each action, in milliseconds: to watch, or to interfere.
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(..=60_000))]
     pub step_ms: u64,
+    /// Going takes a step for each quarter of a metre on the way, instead of one step in all.
+    #[arg(long)]
+    pub travel: bool,
     /// A script of what happens without the team (JSON Lines): `{"robot": "robot1", "before_step": 3, "fail": true}`,
     /// or instead of `fail`: `"move": "Apple_1", "to": "DiningTable_1"`, or `"close": "Fridge_1"`.
     #[arg(long, value_name = "FILE")]
@@ -292,6 +296,14 @@ pub struct BenchArgs {
     /// Write results.json, results.csv (the same for the same seed) and timings.json to this folder.
     #[arg(long)]
     pub out: Option<PathBuf>,
+    /// The method: LaMMA-P, or one to compare it with, which needs a chat model (--lm).
+    #[arg(long, value_enum, default_value = "lamma-p")]
+    pub method: MethodArg,
+    /// Run the suite again without some of LaMMA-P's modules, and print the table of the ablation: P (precondition
+    /// identifier), V (PDDL validator), G (problem generator), D (decomposition). `P,V` is two runs, `PV` one
+    /// without both.
+    #[arg(long, value_delimiter = ',', value_name = "MODULES")]
+    pub without: Vec<Without>,
     /// Plan for the tasks' own goals instead of understanding their sentences.
     #[arg(long)]
     pub goals_given: bool,

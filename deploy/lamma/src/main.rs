@@ -1,5 +1,6 @@
 //! The `lamma` command: launcher, supervisor, and every process of a team in one binary.
 
+mod ablation;
 mod batch;
 mod cli;
 mod commands;
@@ -12,6 +13,7 @@ mod host;
 mod json;
 mod launch;
 mod meeting;
+mod method;
 mod out;
 mod process;
 mod process_host;

@@ -54,6 +54,9 @@ pub fn write(file: &Path, tasks: &[Task]) -> Result<u8, Failure> {
 
 /// The shortest schedule found for the task's goal, and the bound that was proved.
 fn reference(task: &Task) -> Result<Reference, String> {
+    if task.rules.travel {
+        return Err("going takes its time in it, and schedules are worked out in unit steps".into());
+    }
     let (world, goal) = task.world(0).map_err(|e| e.to_string())?;
     let team = lamma_coordinator::house::team(&world);
     let available: Vec<usize> = (0..team.members.len()).collect();

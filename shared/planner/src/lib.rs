@@ -15,6 +15,7 @@ mod sas;
 pub mod search;
 mod successor;
 pub mod task;
+pub mod travel;
 pub mod validate;
 
 pub use explain::explain_unreachable;
@@ -28,4 +29,5 @@ pub use search::{
     relaxed_plan_cost, solve, solve_anytime,
 };
 pub use task::{FactId, OperatorId, State, Task};
+pub use travel::Travel;
 pub use validate::{Verdict, read_plan, validate, write_plan};

@@ -8,6 +8,7 @@
 mod clause;
 mod effect;
 mod emit;
+mod gloss;
 mod inflect;
 mod lexicon;
 mod mention;
@@ -26,6 +27,7 @@ use crate::{Answer, Clarification, Decomposition, LanguageModel, LmError, Reques
 use clause::Parser;
 use effect::{Change, Fact, Interpreter};
 use emit::{Emitter, Stay};
+pub use gloss::Gloss;
 use lexicon::{Act, Lexicon};
 use mention::{Discourse, Spoken};
 use scene::Scene;
