@@ -294,6 +294,7 @@ impl<'a> Parser<'a> {
                     && !self.rest().starts_with(&["as", "well"])
                     && self.ahead(1).clause_starts_here(false)
             }
+            "with" if self.state_follows() => self.position > start,
             "to" if self.passive_follows() => self.position > start,
             // "to turn it on" begins a clause; "to the sink" does not.
             "to" | "by" => {

@@ -132,6 +132,11 @@ impl<'a> Discourse<'a> {
                 self.entities[entity].noun.clone_from(&noun.word);
             }
             self.entities[entity].asked.extend(phrase.states.clone());
+            if let Some(liquid) = phrase.with.iter().find_map(Phrase::liquid)
+                && self.scene.affords(self.entities[entity].kind(), "canFillWithLiquid")
+            {
+                self.entities[entity].asked.extend(filled(liquid));
+            }
             for &content in &contents {
                 if !self.entities[entity].holds.contains(&content) {
                     self.entities[entity].holds.push(content);
@@ -149,6 +154,9 @@ impl<'a> Discourse<'a> {
                 continue;
             }
             let Head::Noun(noun) = &phrase.head else { continue };
+            if phrase.liquid().is_some() {
+                continue;
+            }
             let holders = self.entities[holder].kinds.clone();
             let scene = self.scene;
             let fitting: Vec<String> = holders
@@ -497,6 +505,12 @@ impl<'a> Discourse<'a> {
         }
         found
     }
+}
+
+/// The states of what is full of a liquid.
+pub fn filled(liquid: &str) -> Settings {
+    let word = lamma_domains::goal::PropertyValue::Word(liquid.to_owned());
+    Settings::from([("isFilledWithLiquid".to_owned(), super::yes()), ("fillLiquid".to_owned(), word)])
 }
 
 /// Whether a noun would be taken for the type that an entity is taken for.

@@ -40,6 +40,9 @@ const THRESHOLD: f64 = 0.5;
 /// A strong situation that explains so many words stands for the whole sentence, not for a clause of it.
 const SURE_WHOLE: usize = 3;
 
+/// A reading this sure is not replaced by what a situation would do.
+const SURE: f64 = 0.8;
+
 /// `true`, as a property's value.
 fn yes() -> PropertyValue {
     PropertyValue::Flag(true)
@@ -191,7 +194,8 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
     let explained = strong.first().map_or(0, |(_, explained)| *explained);
     let absent = reading.problems.iter().any(|problem| problem.starts_with("there is no "));
     let one_sentence = !words[..words.len().saturating_sub(1)].contains(&".".to_owned());
-    if explained >= SURE_WHOLE && one_sentence && !reading.concrete {
+    let sure = reading.decomposition.confidence > SURE;
+    if explained >= SURE_WHOLE && one_sentence && !sure && !reading.concrete {
         if let Some(whole) = as_situation(&words, instruction, lexicon, scene) {
             reading = whole;
         }

@@ -85,6 +85,17 @@ impl Phrase {
     }
 }
 
+impl Phrase {
+    /// The liquid it speaks of, if it is one.
+    pub fn liquid(&self) -> Option<&str> {
+        match &self.head {
+            Head::Liquid(liquid) => Some(liquid),
+            Head::Noun(noun) => ["water", "wine", "coffee"].into_iter().find(|liquid| noun.word == *liquid),
+            _ => None,
+        }
+    }
+}
+
 /// What a preposition says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {

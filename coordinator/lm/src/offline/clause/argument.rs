@@ -82,6 +82,10 @@ impl<'a> Parser<'a> {
             self.position = start;
             return false;
         }
+        if let Some(liquid) = things[0].liquid() {
+            clause.complement.extend(super::super::mention::filled(liquid));
+            return true;
+        }
         clause.places = vec![Place::new(Relation::In, "in", vessel.clone())];
         clause.objects = things;
         clause.verbs = self

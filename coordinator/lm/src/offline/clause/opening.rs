@@ -72,6 +72,7 @@ impl Parser<'_> {
                 "to" if self.word_at(1) == Some("be") && self.word_at(2).is_some() => self.position += 1,
                 "," | "." | "and" | "so" | "but" | "plus" | "first" | "firstly" | "to" | "you" | "i"
                 | "we" => {}
+                "with" if self.state_follows() => {}
                 "before" => {
                     if first {
                         opening.after_next = true;
@@ -123,6 +124,17 @@ impl Parser<'_> {
             && ahead.verbs_here().is_some_and(|(form, verbs, _)| {
                 form == VerbForm::Base && verbs.iter().any(|verb| verb.act != Act::Go)
             })
+    }
+
+    /// "with the lights off": a state that is to hold.
+    pub(super) fn state_follows(&self) -> bool {
+        let mut ahead = self.ahead(1);
+        if self.peek() != Some("with") || ahead.phrases(0).is_empty() {
+            return false;
+        }
+        let state = ahead.peek().and_then(|word| self.lexicon.adjective(&[word]));
+        let ends = ahead.word_at(1).is_none_or(|word| [",", ".", "and", "at", "afterwards"].contains(&word));
+        ends && state.is_some_and(|state| state.set.keys().any(|p| p == "isOpen" || p == "isToggled"))
     }
 
     /// "… . Once it is clean, put it away": what is said first is done first.

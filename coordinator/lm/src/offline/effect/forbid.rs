@@ -69,6 +69,17 @@ impl<'a> Interpreter<'_, 'a> {
         Spoken { objects: entities, places: said, ..Spoken::default() }
     }
 
+    /// "don't leave the fridge open": it is to be closed at the end, whatever happens on the way.
+    pub(super) fn not_to_be_left(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
+        let leaves = clause.says_any(&["leave", "leaving", "forget", "keep", "keeping"]);
+        (leaves && !clause.complement.is_empty()).then(|| {
+            let mut kept = clause.clone();
+            kept.complement.values_mut().for_each(|value| *value = super::super::opposite(value));
+            kept.words.retain(|word| !["leave", "leaving", "keep", "keeping"].contains(&word.as_str()));
+            kept
+        })
+    }
+
     /// "keep the fridge closed": also on the way, if it is so now and nothing else asks for it to be opened.
     pub(super) fn keep_on_the_way(&mut self, clause: &Clause<'a>, entities: &[usize]) {
         let lasts = clause.says_any(&["keep", "leave", "stay", "stays", "remain", "remains", "kept", "left"]);

@@ -229,6 +229,11 @@ impl<'a> Interpreter<'_, 'a> {
             }
         }
         self.add_asked(&places);
+        // "serve the potato hot on the plate"
+        for &entity in objects.iter().filter(|_| !clause.complement.is_empty()) {
+            let states = self.discourse.possible_states(entity, clause.complement.clone());
+            self.add_states(entity, &states);
+        }
         if let Some(&place) = places.first() {
             for &entity in &objects {
                 if entity != place {
