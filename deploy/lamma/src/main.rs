@@ -1,5 +1,6 @@
 //! The `lamma` command: launcher, supervisor, and every process of a team in one binary.
 
+mod ablation;
 mod batch;
 mod cli;
 mod commands;
@@ -12,6 +13,7 @@ mod host;
 mod json;
 mod launch;
 mod meeting;
+mod method;
 mod out;
 mod process;
 mod process_host;
@@ -102,18 +104,15 @@ fn report(failure: &Failure, format: Format) -> u8 {
 }
 
 fn log_to_stderr(verbose: u8) {
-    use tracing::Level;
-    let level = match verbose {
-        0 => Level::WARN,
-        1 => Level::INFO,
-        2 => Level::DEBUG,
-        _ => Level::TRACE,
+    let default = match verbose {
+        // Zenoh warns of every client behind a socket without a name, which are all.
+        0 => "warn,zenoh_link_unixsock_stream=error",
+        1 => "info",
+        2 => "debug",
+        _ => "trace",
     };
-    let logger = tracing_subscriber::fmt().with_writer(std::io::stderr);
-    // Only who asks for it pays for a filter by text: to build one takes longer than to plan a small task.
-    // Both fail only if a logger is there already.
-    let _ = match tracing_subscriber::EnvFilter::try_from_env("LAMMA_LOG") {
-        Ok(filter) => logger.with_env_filter(filter).try_init(),
-        Err(_) => logger.with_max_level(level).try_init(),
-    };
+    let filter = tracing_subscriber::EnvFilter::try_from_env("LAMMA_LOG")
+        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new(default));
+    // Fails only if a logger is there already.
+    let _ = tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).try_init();
 }
