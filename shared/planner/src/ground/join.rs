@@ -1,6 +1,7 @@
 //! All instances of a rule's body, by backtracking over its atoms, smallest choice first.
 
 use super::relation::Relation;
+use super::relevance::{Values, matters};
 use super::{GroundError, GroundLimits};
 use crate::lifted::{Body, LiftedAtom, Role, Symbols, Term};
 
@@ -23,6 +24,8 @@ pub(crate) struct Join<'a> {
     pub symbols: &'a Symbols,
     pub relations: &'a [Relation],
     pub body: &'a Body,
+    /// Which instances are wanted; `None`: all.
+    pub filter: Option<&'a [Values]>,
     pub binding: &'a mut Vec<u32>,
     pub found: &'a mut Vec<u32>,
     /// Work space: the atoms not joined yet, and the slots bound so far.
@@ -275,6 +278,9 @@ impl<'a> Join<'a> {
         let free = body.bound[from..].iter().position(|&slot| self.binding[slot as usize] == UNBOUND);
         let Some(free) = free else {
             let binding = &self.binding;
+            if self.filter.is_some_and(|filter| !matters(filter, binding)) {
+                return;
+            }
             self.count += 1;
             self.found.extend(body.bound.iter().map(|&slot| binding[slot as usize]));
             return;

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use super::join::{Join, Trigger};
 use super::relation::Relation;
+use super::relevance::Filters;
 use super::{GroundError, GroundLimits};
 use crate::lifted::{Change, Head, Lifted, LiftedAtom, Role, Term};
 
@@ -18,9 +19,13 @@ pub(crate) struct Reached {
     pub counts: Vec<usize>,
 }
 
-/// Computes the fixpoint.
-pub(crate) fn reach(lifted: &Lifted, limits: &GroundLimits<'_>) -> Result<Reached, GroundError> {
-    let mut fixpoint = Fixpoint::new(lifted, limits);
+/// Computes the fixpoint, of the instances that the filters let pass.
+pub(crate) fn reach(
+    lifted: &Lifted,
+    filters: &Filters,
+    limits: &GroundLimits<'_>,
+) -> Result<Reached, GroundError> {
+    let mut fixpoint = Fixpoint::new(lifted, filters, limits);
     fixpoint.load();
     for rule in 0..lifted.rules.len() {
         if !fixpoint.is_late(rule) && fixpoint.first_changing_atom(rule).is_none() {
@@ -68,6 +73,7 @@ const WORDS_A_FACT: usize = 6;
 
 struct Fixpoint<'a> {
     lifted: &'a Lifted,
+    filters: &'a Filters,
     limits: &'a GroundLimits<'a>,
     relations: Vec<Relation>,
     instances: Vec<Vec<u32>>,
@@ -87,11 +93,12 @@ struct Fixpoint<'a> {
 }
 
 impl<'a> Fixpoint<'a> {
-    fn new(lifted: &'a Lifted, limits: &'a GroundLimits<'a>) -> Self {
+    fn new(lifted: &'a Lifted, filters: &'a Filters, limits: &'a GroundLimits<'a>) -> Self {
         let symbols = &lifted.symbols;
         let objects = symbols.objects.len();
         let mut fixpoint = Fixpoint {
             lifted,
+            filters,
             limits,
             relations: symbols.predicates.iter().map(|p| Relation::new(p.arity, objects)).collect(),
             instances: vec![Vec::new(); lifted.rules.len()],
@@ -108,7 +115,7 @@ impl<'a> Fixpoint<'a> {
             trail: Vec::new(),
         };
         for (index, rule) in lifted.rules.iter().enumerate() {
-            if fixpoint.is_late(index) {
+            if fixpoint.is_late(index) || fixpoint.is_idle(index) {
                 continue;
             }
             for (position, atom) in rule.body.atoms.iter().enumerate() {
@@ -170,7 +177,15 @@ impl<'a> Fixpoint<'a> {
         result
     }
 
+    /// Whether no instance of the rule matters.
+    fn is_idle(&self, rule: usize) -> bool {
+        self.filters[rule].as_ref().is_some_and(Vec::is_empty)
+    }
+
     fn fire(&mut self, index: usize, trigger: Option<Trigger>) -> Result<(), GroundError> {
+        if self.is_idle(index) {
+            return Ok(());
+        }
         let rule = &self.lifted.rules[index];
         let width = rule.body.bound.len();
         let mut found = std::mem::take(&mut self.found);
@@ -182,6 +197,7 @@ impl<'a> Fixpoint<'a> {
             symbols: &self.lifted.symbols,
             relations: &self.relations,
             body: &rule.body,
+            filter: self.filters[index].as_deref(),
             binding: &mut self.binding,
             found: &mut found,
             pending: &mut self.pending,
