@@ -59,7 +59,7 @@ pub fn plan_jointly(input: &JointInput, cancel: &AtomicBool) -> Result<JointPlan
     let gave_up = |why: &dyn std::fmt::Display| NoAllocation::GaveUp(why.to_string());
     let joint = JointTask::new(team, &input.available, &input.facts, &input.goal).map_err(|e| gave_up(&e))?;
     let plan = search(input, &joint.task, cancel)?;
-    let interpreter = Interpreter::new(&team.domain, &team.objects).map_err(|e| gave_up(&e))?;
+    let interpreter = team.interpreter().map_err(|e| gave_up(&e))?;
     let order = explain(input, &interpreter, &plan).map_err(|why| gave_up(&why))?;
     let (order, bound) = improve(input, &interpreter, &joint, order, cancel);
     Ok(handed_out(input, &interpreter, &order, f64::from(bound)))
@@ -83,7 +83,7 @@ fn improve(
     if makespan <= floor {
         return (order, floor);
     }
-    let Some(found) = joint.shortest(floor, Some(makespan), &input.makespan, cancel) else {
+    let Some(found) = joint.shortest(&[], floor, Some(makespan), &input.makespan, cancel) else {
         return (order, floor);
     };
     let bound = found.lower_bound.unwrap_or(floor).max(floor);
