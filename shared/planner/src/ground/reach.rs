@@ -7,7 +7,7 @@ use super::join::{Join, Trigger};
 use super::relation::Relation;
 use super::relevance::Filters;
 use super::{GroundError, GroundLimits};
-use crate::lifted::{Change, Head, Lifted, LiftedAtom, Role, Term};
+use crate::lifted::{Body, Change, Head, Lifted, LiftedAtom, Role, Term};
 
 /// The fixpoint.
 pub(crate) struct Reached {
@@ -33,7 +33,7 @@ pub(crate) fn reach(
         }
     }
     while let Some((predicate, row)) = fixpoint.queue.pop_front() {
-        fixpoint.relations[predicate as usize].show_next();
+        fixpoint.relations[predicate as usize].show_next(&lifted.symbols.ranges);
         fixpoint.trigger(predicate, row)?;
     }
     for rule in 0..lifted.rules.len() {
@@ -78,6 +78,8 @@ struct Fixpoint<'a> {
     relations: Vec<Relation>,
     instances: Vec<Vec<u32>>,
     counts: Vec<usize>,
+    /// For each rule the views that the atoms of its body look at.
+    views: Vec<Vec<u32>>,
     /// Where each predicate occurs.
     triggers: Vec<Occurrences>,
     queue: VecDeque<(u32, u32)>,
@@ -103,6 +105,7 @@ impl<'a> Fixpoint<'a> {
             relations: symbols.predicates.iter().map(|p| Relation::new(p.arity, objects)).collect(),
             instances: vec![Vec::new(); lifted.rules.len()],
             counts: vec![0; lifted.rules.len()],
+            views: Vec::with_capacity(lifted.rules.len()),
             triggers: vec![Occurrences::default(); symbols.predicates.len()],
             queue: VecDeque::new(),
             facts: 0,
@@ -114,6 +117,10 @@ impl<'a> Fixpoint<'a> {
             pending: Vec::new(),
             trail: Vec::new(),
         };
+        for rule in &lifted.rules {
+            let views = rule.body.atoms.iter().map(|atom| fixpoint.view(&rule.body, atom)).collect();
+            fixpoint.views.push(views);
+        }
         for (index, rule) in lifted.rules.iter().enumerate() {
             if fixpoint.is_late(index) || fixpoint.is_idle(index) {
                 continue;
@@ -125,6 +132,20 @@ impl<'a> Fixpoint<'a> {
             }
         }
         fixpoint
+    }
+
+    /// The view of the rows that can match an atom of a body: its variables' ranges.
+    fn view(&mut self, body: &Body, atom: &LiftedAtom) -> u32 {
+        let symbols = &self.lifted.symbols;
+        let kinds = atom.args.iter().map(|term| match term {
+            Term::Object(_) => None,
+            Term::Variable(slot) => {
+                let range = body.variables[*slot as usize];
+                let all = symbols.ranges[range as usize].members.len() == symbols.objects.len();
+                (!all).then_some(range)
+            }
+        });
+        self.relations[atom.predicate as usize].view(kinds.collect())
     }
 
     fn changes(&self, predicate: u32) -> bool {
@@ -150,7 +171,7 @@ impl<'a> Fixpoint<'a> {
             let relation = &mut self.relations[*predicate as usize];
             let Some(row) = relation.insert(args) else { continue };
             if self.lifted.symbols.predicates[*predicate as usize].role == Role::Static {
-                relation.show_next();
+                relation.show_next(&self.lifted.symbols.ranges);
             } else {
                 self.queue.push_back((*predicate, row));
             }
@@ -198,6 +219,7 @@ impl<'a> Fixpoint<'a> {
             relations: &self.relations,
             body: &rule.body,
             filter: self.filters[index].as_deref(),
+            views: &self.views[index],
             binding: &mut self.binding,
             found: &mut found,
             pending: &mut self.pending,

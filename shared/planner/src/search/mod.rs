@@ -10,6 +10,7 @@ mod novelty;
 mod open_list;
 mod portfolio;
 mod registry;
+mod type_buckets;
 
 use std::rc::Rc;
 use std::sync::atomic::AtomicBool;
