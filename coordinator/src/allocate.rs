@@ -14,7 +14,7 @@ use lamma_planner::{GroundAct, Limits, Outcome, Plan, SearchOptions, plan_with};
 
 use crate::allocation::{AllocateInput, Allocation, AllocationRule, Cut, NoAllocation, PackageSpec};
 use crate::assign::{Work, assign};
-use crate::bound::makespan_lower_bound;
+use crate::bound::JointTask;
 use crate::combine::world_state;
 use crate::parts::{condition_from, independent_parts};
 use crate::problem::member_problem;
@@ -61,7 +61,10 @@ impl Item {
 pub fn allocate(input: &AllocateInput, cancel: &AtomicBool) -> Result<Allocation, NoAllocation> {
     let interpreter = input.team.interpreter().map_err(|e| NoAllocation::GaveUp(e.to_string()))?;
     let mut allocator = Allocator { input, interpreter, items: Vec::new(), cancel };
-    if input.cut == Cut::Team {
+    // What is out of reach is not bid for: the team's own way says why.
+    let joint = JointTask::new(&input.team, &input.available, &input.facts, &input.final_goal);
+    let floor = joint.map_or(Some(0), |joint| joint.floor_of(&input.team, &input.facts));
+    if input.cut == Cut::Team || floor.is_none() {
         allocator.take_all_as_team()?;
     } else {
         for subgoal in 0..input.subgoals.len() {
@@ -71,8 +74,7 @@ pub fn allocate(input: &AllocateInput, cancel: &AtomicBool) -> Result<Allocation
     let work: Vec<Work> = allocator.items.iter().map(work).collect();
     let members = assign(&work);
     let packages = packages(&allocator.items, &members);
-    let bound = makespan_lower_bound(&input.team, &input.available, &input.facts, &input.final_goal);
-    Ok(Allocation { packages, lower_bound: f64::from(bound.unwrap_or(0)) })
+    Ok(Allocation { packages, lower_bound: f64::from(floor.unwrap_or(0)) })
 }
 
 fn work(item: &Item) -> Work {
@@ -131,9 +133,12 @@ impl Allocator<'_> {
         let lasting = self.input.subgoals.iter().filter(|s| s.lasting).map(|s| s.goal.clone());
         let everything = Condition::And(lasting.collect());
         for index in 0..self.input.subgoals.len() {
-            self.plan_as_team(index, &self.input.subgoals[index].goal, &start, true, None)?;
+            let alone = self.plan_as_team(index, &self.input.subgoals[index].goal, &start, true, None);
+            if let Err(proof @ NoAllocation::Infeasible(_)) = alone {
+                return Err(proof);
+            }
         }
-        if self.plan_as_team(0, &everything, &start, true, None).is_err_and(|e| e.is_proof()) {
+        if self.is_out_of_reach(&everything, &start) {
             return Err(NoAllocation::Infeasible(self.excluding(&start)));
         }
         let mut kept: Vec<Condition> = Vec::new();
@@ -158,7 +163,7 @@ impl Allocator<'_> {
         while i < rest.len() {
             let one = rest.remove(i);
             let goal = Condition::And(rest.iter().map(|&s| subgoals[s].goal.clone()).collect());
-            if !self.plan_as_team(0, &goal, start, true, None).is_err_and(|e| e.is_proof()) {
+            if !self.is_out_of_reach(&goal, start) {
                 rest.insert(i, one);
                 i += 1;
             }
@@ -323,6 +328,13 @@ impl Allocator<'_> {
             });
         }
         Ok(())
+    }
+
+    /// Whether it is proved that all together cannot do it from there.
+    fn is_out_of_reach(&self, goal: &Condition, state: &WorldState) -> bool {
+        let (team, available) = (&self.input.team, &self.input.available);
+        let outcome = team_plan(team, available, &state.facts, &[], goal, &self.limits(), self.cancel);
+        matches!(outcome, Ok(Outcome::Unsolvable(_)))
     }
 
     fn plan_as_team(

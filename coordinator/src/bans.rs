@@ -7,7 +7,7 @@
 use std::collections::BTreeSet;
 
 use lamma_pddl::ast::GroundAtom;
-use lamma_protocol::Act;
+use lamma_protocol::message::Act;
 
 /// An act that nobody may do to a thing.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,7 +34,10 @@ impl Ban {
         let is = |arg: &String, name: &str| arg.eq_ignore_ascii_case(name);
         act.action.eq_ignore_ascii_case(&self.skill)
             && match &self.item {
-                Some(item) => act.args.iter().any(|a| is(a, item)) && act.args.last().is_some_and(|a| is(a, &self.object)),
+                Some(item) => {
+                    act.args.iter().any(|a| is(a, item))
+                        && act.args.last().is_some_and(|a| is(a, &self.object))
+                }
                 None if self.skill == "PutObject" => act.args.last().is_some_and(|a| is(a, &self.object)),
                 None => act.args.get(1).is_some_and(|a| is(a, &self.object)),
             }

@@ -12,7 +12,8 @@ use crate::machine::Coordinator;
 use crate::phase::{Following, Phase, Round};
 use crate::problem::member_problem;
 use crate::result::OutcomeKind;
-use crate::shorten::Shorten;
+use crate::shorten::{Shorten, Wanted};
+use crate::understand::Subgoal;
 
 /// Packages that may be planned again because they did not fit after the others.
 const MAX_CONFLICTS: u32 = 12;
@@ -136,14 +137,15 @@ impl Coordinator {
         self.enter(Phase::Combining(job, round));
     }
 
-    /// Steps may be chosen anew only where the end is all that was asked for.
+    /// Steps may be chosen anew where nothing was asked for that is over before the end.
     fn shorten(&self, round: &Round) -> Shorten {
         let subgoals = self.understanding.as_ref().map_or(&[][..], |u| &u.subgoals);
-        let free = self.config.method.divide && subgoals.iter().all(|s| s.lasting && s.after.is_empty());
+        let lasting = self.config.method.divide && subgoals.iter().all(|s| s.lasting);
+        let wanted = |s: &Subgoal| Wanted { goal: s.goal.clone(), after: s.after.clone() };
         Shorten {
             available: self.roster.available(),
             bound: round.allocation.lower_bound,
-            subgoals: free.then(|| subgoals.iter().map(|s| s.goal.clone()).collect()),
+            wanted: lasting.then(|| subgoals.iter().map(wanted).collect()),
             limits: self.config.makespan.clone(),
         }
     }

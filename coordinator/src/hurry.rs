@@ -4,7 +4,7 @@
 //! some consecutive steps of a robot are left out, done at another place of the order, or done by somebody else. A
 //! change is kept if the plan still reaches the goal, on the plain semantics, and is done earlier (or as early with
 //! less time on the way). What comes out is a plan that no such change makes better, or the best found within the
-//! budget, which is counted in changes tried.
+//! budget, which is counted in steps looked at, so that it is the same on every machine.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -24,8 +24,8 @@ pub(crate) struct Hurry<'a> {
     pub goal: &'a GroundCondition,
     /// The names of those who may act, with their index in the team.
     pub members: Vec<(usize, Name)>,
-    /// Changes to try.
-    pub budget: u32,
+    /// How much may be tried, in steps that are looked at.
+    pub budget: u64,
 }
 
 /// A step as it is changed: who, and what.
@@ -44,9 +44,10 @@ impl Hurry<'_> {
     pub fn run(&self, plans: &[Vec<TeamStep>], cancel: &AtomicBool) -> Option<(PartialOrder, WorldState)> {
         let mut known = BTreeMap::new();
         let of = |steps: &Vec<TeamStep>| steps.iter().map(|s| (s.agent, s.action.act.clone())).collect();
-        let starts = plans.iter().filter_map(|steps| self.candidate(of(steps), None, 0, &mut known));
-        let mut best = starts.min_by(|a, b| order(a.score, b.score))?;
         let mut left = self.budget;
+        let starts =
+            plans.iter().filter_map(|steps| self.candidate(of(steps), None, 0, &mut left, &mut known));
+        let mut best = starts.min_by(|a, b| order(a.score, b.score))?;
         while let Some(better) = self.improve(&best, &mut left, &mut known, cancel) {
             best = better;
         }
@@ -58,7 +59,7 @@ impl Hurry<'_> {
     fn improve(
         &self,
         from: &Candidate,
-        left: &mut u32,
+        left: &mut u64,
         known: &mut BTreeMap<GroundAct, Option<GroundAction>>,
         cancel: &AtomicBool,
     ) -> Option<Candidate> {
@@ -81,8 +82,7 @@ impl Hurry<'_> {
                 if *left == 0 || cancel.load(Ordering::Relaxed) {
                     return None;
                 }
-                *left -= 1;
-                let tried = self.candidate(doings, Some(from), first, known);
+                let tried = self.candidate(doings, Some(from), first, left, known);
                 if let Some(better) = tried.filter(|c| order(c.score, from.score).is_lt()) {
                     return Some(better);
                 }
@@ -91,20 +91,28 @@ impl Hurry<'_> {
         None
     }
 
-    /// The plan, if it is one. Up to step `first` it is the same as `like`.
+    /// The plan, if it is one and may be better than `like`, with which it has the steps before `first` in common.
     fn candidate(
         &self,
         doings: Vec<Doing>,
         like: Option<&Candidate>,
         first: usize,
+        left: &mut u64,
         known: &mut BTreeMap<GroundAct, Option<GroundAction>>,
     ) -> Option<Candidate> {
         let mut states = like.map_or_else(|| vec![self.initial.clone()], |l| l.states[..=first].to_vec());
         let mut steps: Vec<TeamStep> = Vec::with_capacity(doings.len());
+        let mut busy: BTreeMap<usize, f64> = BTreeMap::new();
         for (index, (agent, act)) in doings.iter().enumerate() {
             let action =
                 known.entry(act.clone()).or_insert_with(|| self.interpreter.instantiate(act).ok()).clone()?;
+            // Nobody is done before the time of its own steps.
+            *busy.entry(*agent).or_insert(0.0) += self.interpreter.duration(&states[index], &action).ok()?;
+            if like.is_some_and(|like| busy[agent] > like.score.0) {
+                return None;
+            }
             if index + 1 >= states.len() {
+                *left = left.saturating_sub(1);
                 let mut next = states[index].clone();
                 self.interpreter.apply(&mut next, &action).ok()?;
                 states.push(next);
@@ -114,6 +122,8 @@ impl Hurry<'_> {
         if !self.interpreter.holds(states.last()?, self.goal) {
             return None;
         }
+        // Explaining a plan looks at each pair of its steps.
+        *left = left.saturating_sub((steps.len() * steps.len() / 4) as u64);
         let order = deorder(self.interpreter, self.initial, steps, self.goal, &[]).ok()?;
         let score = (order.makespan(), order.durations.iter().sum());
         Some(Candidate { doings, states, order, score })
@@ -211,7 +221,7 @@ mod tests {
         let steps: Vec<TeamStep> = ["c", "a", "b"].iter().flat_map(step).collect();
         let members = (0..robots.len()).map(|m| (m, Name::new(robots[m]))).collect();
         let (interpreter, initial) = (&interpreter, &initial);
-        let hurry = Hurry { interpreter, initial, goal: &ground, members, budget: 2_000 };
+        let hurry = Hurry { interpreter, initial, goal: &ground, members, budget: 100_000 };
         let (order, end) = hurry.run(&[steps], &AtomicBool::new(false)).unwrap();
         assert!(interpreter.holds(&end, &ground));
         let available: Vec<usize> = (0..robots.len()).collect();

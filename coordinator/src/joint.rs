@@ -83,7 +83,7 @@ fn improve(
     if makespan <= floor {
         return (order, floor);
     }
-    let Some(found) = joint.shortest(floor, Some(makespan), &input.makespan, cancel) else {
+    let Some(found) = joint.shortest(&[], floor, Some(makespan), &input.makespan, cancel) else {
         return (order, floor);
     };
     let bound = found.lower_bound.unwrap_or(floor).max(floor);

@@ -30,6 +30,7 @@ mod report;
 pub mod result;
 mod roster;
 mod say;
+mod sequence;
 pub mod shorten;
 pub mod split;
 mod stopwatch;

@@ -13,7 +13,7 @@ use lamma_domains::world::{ObjectSpec, Rules, Thing, WorldSetup, setup_with};
 use lamma_pddl::Name;
 use lamma_planner::GroundAct;
 use lamma_protocol::message::{Act, Grant, Message, Request, Verdict};
-use lamma_protocol::{AgentId, Envelope, Epoch, Input, Machine, Output, Revision, Tick, Topic};
+use lamma_protocol::{AgentId, Envelope, Epoch, Input, Machine, Output, Revision, StepIndex, Tick, Topic};
 use lamma_simulator::{AgentSpec, Arbiter, Event, Happening, WorldConfig};
 use lamma_tests::house::{COMPARED, House};
 
@@ -151,18 +151,23 @@ impl Both {
         }
     }
 
-    fn say(&mut self, topic: Topic, message: Message) -> Option<Verdict> {
+    fn say(&mut self, topic: Topic, message: Message) {
         self.revision += 1;
         let revision = Revision { incarnation: 0, number: self.revision };
         self.arbiter.handle(self.now, Input::Message(topic, Envelope { revision, message }));
-        self.verdict()
     }
 
-    fn verdict(&mut self) -> Option<Verdict> {
+    /// The answer to that step of the agent, among what the simulator says; it repeats older ones.
+    fn verdict(&mut self, agent: AgentId, step: StepIndex) -> Option<Verdict> {
         let mut verdict = None;
         while let Some(output) = self.arbiter.poll_output() {
-            if let Output::Publish(Topic::Ack(_), Message::Ack(ack)) = output {
-                verdict = Some(ack.verdict);
+            match output {
+                Output::Publish(Topic::Ack(to), Message::Ack(ack))
+                    if to == agent && (ack.epoch, ack.step) == (Epoch(self.epoch), step) =>
+                {
+                    verdict = Some(ack.verdict);
+                }
+                _ => {}
             }
         }
         verdict
@@ -178,12 +183,14 @@ impl Both {
         let step = self.arbiter.progress()[agent];
         let act = Act { action: words[0].into(), args: words[1..].iter().map(ToString::to_string).collect() };
         let request = Request { epoch: Epoch(self.epoch), step, act, gates: Vec::new() };
-        let mut verdict = self.say(Topic::Request(AgentId(agent as u16)), Message::Request(request));
+        let id = AgentId(agent as u16);
+        self.say(Topic::Request(id), Message::Request(request));
+        let mut verdict = self.verdict(id, step);
         if verdict.is_none() {
             // It is held until the world has been still: something happens first.
             self.now = self.now.after_ms(1_000);
             self.arbiter.handle(self.now, Input::Timeout);
-            verdict = self.verdict();
+            verdict = self.verdict(id, step);
         }
         match verdict {
             Some(Verdict::Applied { .. }) => Ok(()),

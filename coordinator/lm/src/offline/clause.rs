@@ -180,10 +180,15 @@ impl<'a> Parser<'a> {
             && clause.unknown.is_empty()
             && clause.complement.is_empty()
             && let Some(previous) = previous
+            && (!opening.sentence || goes_somewhere(&clause))
             && (!clause.objects.is_empty() || goes_somewhere(&clause) && places(previous))
         {
             clause.verbs.clone_from(&previous.verbs);
             clause.verb_text.clone_from(&previous.verb_text);
+            // "put the card in the box, then the keys"
+            if clause.places.is_empty() && clause.complement.is_empty() && places(previous) {
+                clause.places.clone_from(&previous.places);
+            }
         }
         if let Some(previous) = previous.filter(|_| clause.verbs.is_empty() && clause.unknown.is_empty()) {
             clause.go_on(previous);
@@ -224,7 +229,11 @@ impl<'a> Parser<'a> {
             if self.contrast() || self.neither(clause) || self.choice(clause) || self.there(clause) {
                 continue;
             }
-            if self.particle(clause) || self.complement(clause) || self.place(clause) {
+            if self.contents_told(clause)
+                || self.particle(clause)
+                || self.complement(clause)
+                || self.place(clause)
+            {
                 continue;
             }
             if matches!(word, "," | "and" | "or") {
@@ -285,6 +294,7 @@ impl<'a> Parser<'a> {
                     && !self.rest().starts_with(&["as", "well"])
                     && self.ahead(1).clause_starts_here(false)
             }
+            "with" if self.state_follows() => self.position > start,
             "to" if self.passive_follows() => self.position > start,
             // "to turn it on" begins a clause; "to the sink" does not.
             "to" | "by" => {
@@ -367,7 +377,8 @@ impl<'a> Parser<'a> {
             return rest.first().is_some_and(states);
         }
         preposition(&ahead.rest())
-            .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
+            .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To | Relation::Near))
+            || ahead.peek().is_some_and(|word| ["should", "must", "needs", "need"].contains(&word))
             || ahead.complements_follow()
     }
 

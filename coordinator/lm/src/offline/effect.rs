@@ -53,6 +53,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         };
         let sets_down = clauses.iter().any(|clause| {
             holds(clause)
+                && !clause.objects.is_empty()
                 && clause.places.iter().any(|place| {
                     matches!(place.relation, Relation::To)
                         || place.relation == Relation::In
@@ -94,9 +95,20 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         self.spoke = false;
         let mut spoken = Spoken::default();
         if clause.negated {
-            spoken = self.forbid(clause);
+            spoken = match self.not_to_be_left(clause) {
+                Some(kept) => self.keep(&kept),
+                None => self.forbid(clause),
+            };
+        } else if clause.says_any(&["same", "likewise"]) && self.same_again(clause, &mut spoken) {
         } else if let Some(verb) = self.choose(clause) {
+            let liquid = !clause.objects.is_empty() && clause.objects.iter().all(|o| o.liquid().is_some());
             spoken = match verb.act {
+                Act::Place | Act::Hold | Act::Keep if liquid && clause.places.iter().any(|place| {
+                    matches!(place.relation, Relation::In | Relation::To)
+                }) =>
+                {
+                    self.fill(clause, verb)
+                }
                 Act::Go => self.go(clause, next),
                 Act::Keep if clause.complement.is_empty() && next.is_some_and(speaks_of_it) => {
                     self.only_mention(clause)
@@ -147,6 +159,24 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             self.discourse.assume(format!("passed over \"{word}\""), 0.85);
         }
         self.discourse.spoken.push(spoken);
+    }
+
+    /// "do the same with the spoon": all that was asked for of the thing spoken of last.
+    fn same_again(&mut self, clause: &Clause<'a>, spoken: &mut Spoken) -> bool {
+        let model = self.discourse.spoken.iter().rev().find_map(|spoken| spoken.objects.last().copied());
+        let Some(model) = model else { return false };
+        let kind = |phrase: &&Phrase| matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| self.discourse.scene.has(kind)));
+        let places = clause.places.iter().map(|place| &place.phrase);
+        let phrases: Vec<Phrase> = clause.objects.iter().chain(places).filter(kind).cloned().collect();
+        let facts: Vec<Change> =
+            self.facts.iter().filter(|fact| fact.entity == model).map(|fact| fact.change.clone()).collect();
+        for phrase in &phrases {
+            for entity in self.discourse.mention(phrase, &[], None) {
+                facts.iter().for_each(|change| self.add(entity, change.clone()));
+                spoken.objects.push(entity);
+            }
+        }
+        !spoken.objects.is_empty()
     }
 
     /// "the pan is dirty, wash it": only says what is spoken of.

@@ -11,6 +11,9 @@ use super::inflect;
 use super::lexicon::{LONGEST, Settings, squash};
 use super::mention::Which;
 
+/// As many situations are tried as there may be nothing for in the scene.
+const MOST_TRIED: usize = 4;
+
 /// A situation.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -104,24 +107,34 @@ fn has_word(words: &[String], wanted: &str) -> bool {
     })
 }
 
-/// The situation that explains most of the words; of those that explain as much, a strong one, then the first.
-pub fn best<'s>(
+/// The situations that explain something of the words and how much, those that explain most first; of those that
+/// explain as much, strong ones, then in the order of the file.
+pub fn ranked<'s>(
     situations: &'s [Situation],
     words: &[String],
     strong_only: bool,
-) -> Option<(&'s Situation, usize)> {
-    let mut best: Option<(&Situation, usize)> = None;
-    for situation in situations.iter().filter(|situation| situation.strong || !strong_only) {
-        if let Some(score) = situation.fits(words)
-            && best.is_none_or(|(known, found)| (score, situation.strong) > (found, known.strong))
-        {
-            best = Some((situation, score));
-        }
-    }
-    best
+) -> Vec<(&'s Situation, usize)> {
+    let mut found: Vec<(&Situation, usize)> = situations
+        .iter()
+        .filter(|situation| situation.strong || !strong_only)
+        .filter_map(|situation| Some((situation, situation.fits(words)?)))
+        .collect();
+    found.sort_by_key(|(situation, score)| std::cmp::Reverse((*score, situation.strong)));
+    found.truncate(MOST_TRIED);
+    found
 }
 
 impl Interpreter<'_, '_> {
+    /// The first of some situations that the scene has something for; false if there is none.
+    pub fn first_situation(
+        &mut self,
+        index: usize,
+        ranked: &[(&Situation, usize)],
+        words: &[String],
+    ) -> bool {
+        ranked.iter().any(|(situation, _)| self.situation(index, situation, words))
+    }
+
     /// Adds the facts of a situation; false when the scene has nothing for it.
     pub fn situation(&mut self, index: usize, situation: &Situation, words: &[String]) -> bool {
         self.at_clause(index);
@@ -131,7 +144,7 @@ impl Interpreter<'_, '_> {
             if template.otherwise && self.facts.len() > before {
                 continue;
             }
-            let mut found = self.instances(template);
+            let mut found = self.instances(template, words);
             if let Some(affordance) = &template.said {
                 found.extend(self.named_in(words, affordance));
             }
@@ -179,14 +192,21 @@ impl Interpreter<'_, '_> {
         found
     }
 
-    fn instances(&mut self, template: &Template) -> Vec<usize> {
-        let scene = self.discourse.scene;
+    fn instances(&mut self, template: &Template, words: &[String]) -> Vec<usize> {
+        let (scene, lexicon) = (self.discourse.scene, self.discourse.lexicon);
+        // "read his paper" is about the newspaper, whatever else there is to read.
+        let named = |kind: &&String| {
+            words
+                .iter()
+                .any(|word| lexicon.noun(&[word]).is_some_and(|(noun, _)| noun.kinds.first() == Some(kind)))
+        };
         let mut found = Vec::new();
         for kind in template.each.iter().filter(|kind| scene.has(kind)) {
             let which = if scene.of_kind(kind).len() > 1 { Which::All } else { Which::Any };
             found.push(self.discourse.entity(kind, which));
         }
-        let one = template.one.iter().find(|kind| scene.has(kind));
+        let mut here = template.one.iter().filter(|kind| scene.has(kind));
+        let one = here.clone().find(named).or_else(|| here.next());
         for kind in one.into_iter().chain(template.one_of_each.iter().filter(|kind| scene.has(kind))) {
             found.push(self.discourse.entity(kind, Which::Any));
         }

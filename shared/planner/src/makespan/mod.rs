@@ -8,9 +8,11 @@
 
 mod formula;
 mod layers;
+mod milestones;
 mod model;
 mod relevance;
 mod sat;
+mod together;
 
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
@@ -18,9 +20,11 @@ use std::time::{Duration, Instant};
 use crate::search::eliminate;
 use crate::task::{OperatorId, Task};
 use layers::{NEVER, Reach};
+pub use milestones::{Milestone, Need};
 use model::Model;
 use relevance::Relevance;
 use sat::{Found, Fuel, is_true};
+use together::Together;
 
 /// How much may be spent. The first two are the same on every machine.
 #[derive(Clone, Debug)]
@@ -74,6 +78,7 @@ pub struct Scheduler<'a> {
     model: Model,
     reach: Reach,
     relevance: Relevance,
+    together: Together,
 }
 
 /// What there is to say about schedules of some length.
@@ -87,16 +92,25 @@ impl<'a> Scheduler<'a> {
     /// Prepares the schedules of a task; `agent_of` says whose each operator is, by numbers from 0. `None` if
     /// its goal cannot be reached even without deletes.
     pub fn new(task: &'a Task, agent_of: &[u32]) -> Option<Self> {
+        Self::in_order(task, agent_of, &[])
+    }
+
+    /// The same for schedules that reach parts of the goal one after the other.
+    pub fn in_order(task: &'a Task, agent_of: &[u32], milestones: &[Milestone]) -> Option<Self> {
         if !task.impossible.is_empty() || agent_of.len() != task.operators.len() {
             return None;
         }
-        let model = Model::new(task, agent_of);
+        let mut model = Model::new(task, agent_of);
+        if milestones.iter().any(|milestone| !milestone.after.is_empty()) {
+            model.put_in_order(task, milestones);
+        }
         let reach = Reach::new(&model);
         if reach.goal(&model) == NEVER {
             return None;
         }
         let relevance = Relevance::new(&model);
-        Some(Scheduler { task, model, reach, relevance })
+        let together = Together::new(&model);
+        Some(Scheduler { task, model, reach, relevance, together })
     }
 
     /// The depth of the joint relaxed planning graph: no schedule is shorter.
@@ -153,7 +167,9 @@ impl<'a> Scheduler<'a> {
             return Answer::Unknown;
         }
         let layers = self.reach.layers(&self.model, &self.relevance, steps);
-        let Some(formula) = formula::formula(&self.model, &layers, fuel) else { return Answer::Unknown };
+        let Some(formula) = formula::formula(&self.model, &self.together, &layers, fuel) else {
+            return Answer::Unknown;
+        };
         match formula.clauses.solve(fuel) {
             (Found::Contradiction, _) => Answer::None,
             (Found::Stopped, _) => Answer::Unknown,

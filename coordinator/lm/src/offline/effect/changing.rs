@@ -116,21 +116,22 @@ impl<'a> Interpreter<'_, 'a> {
     }
 
     pub(super) fn fill(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
-        let liquid_of = |phrase: &Phrase| match &phrase.head {
-            Head::Liquid(liquid) => Some(liquid.clone()),
-            Head::Noun(noun) if ["water", "wine", "coffee"].contains(&noun.word.as_str()) => {
-                Some(noun.word.clone())
-            }
-            _ => None,
-        };
+        let out_of = |place: &&Place| place.relation == Relation::From && place.phrase.liquid().is_none();
+        let into = |place: &Place| matches!(place.relation, Relation::In | Relation::To);
+        if let (Act::Pour, Some(from), false) =
+            (verb.act, clause.places.iter().find(out_of), clause.places.iter().any(into))
+        {
+            let objects = vec![from.phrase.clone()];
+            return self.empty(&Clause { objects, places: Vec::new(), ..clause.clone() });
+        }
         let said = clause
             .objects
             .iter()
             .flat_map(|phrase| std::iter::once(phrase).chain(&phrase.with))
             .chain(clause.places.iter().map(|place| &place.phrase))
-            .find_map(liquid_of);
+            .find_map(|phrase| phrase.liquid().map(str::to_owned));
         let vessels: Vec<Phrase> =
-            clause.objects.iter().filter(|phrase| liquid_of(phrase).is_none()).cloned().collect();
+            clause.objects.iter().filter(|phrase| phrase.liquid().is_none()).cloned().collect();
         let mut fill = clause.clone();
         if verb.act == Act::Pour || vessels.is_empty() {
             fill.objects = clause
@@ -138,7 +139,7 @@ impl<'a> Interpreter<'_, 'a> {
                 .iter()
                 .filter(|place| {
                     matches!(place.relation, Relation::In | Relation::To)
-                        && liquid_of(&place.phrase).is_none()
+                        && place.phrase.liquid().is_none()
                 })
                 .map(|place| place.phrase.clone())
                 .collect();
@@ -146,7 +147,7 @@ impl<'a> Interpreter<'_, 'a> {
             fill.objects = vessels;
         }
         let solid =
-            clause.objects.iter().any(|phrase| phrase.with.iter().any(|with| liquid_of(with).is_none()));
+            clause.objects.iter().any(|phrase| phrase.with.iter().any(|with| with.liquid().is_none()));
         let objects = self.objects(&fill, &[], Some("canFillWithLiquid"));
         if said.is_none() && solid {
             return Spoken { objects, ..Spoken::default() };

@@ -55,7 +55,7 @@ impl<'a> Interpreter<'_, 'a> {
             let text = format!("\"not {}\" cannot be put as a goal, and nobody watches over it", clause.text);
             self.discourse.assume(text, 0.95);
         }
-        let places = self.places_spoken_of(&clause.places);
+        said.extend(self.places_spoken_of(&clause.places));
         let prohibition = Prohibition {
             clause: self.clause,
             text: clause.text.clone(),
@@ -66,7 +66,18 @@ impl<'a> Interpreter<'_, 'a> {
             soft: false,
         };
         self.prohibitions.push(prohibition);
-        Spoken { objects: entities, places: if said.is_empty() { places } else { said }, ..Spoken::default() }
+        Spoken { objects: entities, places: said, ..Spoken::default() }
+    }
+
+    /// "don't leave the fridge open": it is to be closed at the end, whatever happens on the way.
+    pub(super) fn not_to_be_left(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
+        let leaves = clause.says_any(&["leave", "leaving", "forget", "keep", "keeping"]);
+        (leaves && !clause.complement.is_empty()).then(|| {
+            let mut kept = clause.clone();
+            kept.complement.values_mut().for_each(|value| *value = super::super::opposite(value));
+            kept.words.retain(|word| !["leave", "leaving", "keep", "keeping"].contains(&word.as_str()));
+            kept
+        })
     }
 
     /// "keep the fridge closed": also on the way, if it is so now and nothing else asks for it to be opened.

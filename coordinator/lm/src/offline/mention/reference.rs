@@ -2,11 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use super::super::syntax::{Phrase, Place};
+use super::super::syntax::{Phrase, Place, Quantity};
 use super::{Discourse, Which};
 
 impl Discourse<'_> {
-    pub(super) fn slices(&mut self) -> Vec<usize> {
+    /// "the slices": of all that was sliced last, else of what could be.
+    pub(super) fn slices(&mut self, plural: bool) -> Vec<usize> {
+        let sliced = |&entity: &usize| self.entities[entity].asked.contains_key("isSliced");
+        let last = self.spoken.iter().rev().find(|spoken| spoken.objects.iter().any(sliced));
+        if let Some(spoken) = last.filter(|spoken| plural && spoken.objects.len() > 1) {
+            return spoken.objects.iter().copied().filter(sliced).collect();
+        }
         let last = (0..self.entities.len())
             .rev()
             .find(|&e| self.entities[e].kinds.iter().any(|kind| self.scene.affords(kind, "sliceable")));
