@@ -7,7 +7,7 @@
 use std::collections::BTreeSet;
 
 use lamma_pddl::ast::GroundAtom;
-use lamma_protocol::Act;
+use lamma_protocol::message::Act;
 
 /// An act that nobody may do to a thing.
 #[derive(Clone, Debug, PartialEq, Eq)]

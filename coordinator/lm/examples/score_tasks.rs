@@ -131,7 +131,8 @@ fn cause(fact: &str, got: &[String]) -> String {
         .to_owned();
     }
     let (thing, state) = fact.split_once(':').unwrap_or((&fact, ""));
-    let same_thing = others.iter().any(|o| o.starts_with(&format!("{thing}:")) || o.starts_with(&format!("{thing}@")));
+    let same_thing =
+        others.iter().any(|o| o.starts_with(&format!("{thing}:")) || o.starts_with(&format!("{thing}@")));
     let same_state = others.iter().any(|o| o.ends_with(&format!(":{state}")));
     let of = match (same_thing, same_state) {
         (true, _) => "of a thing that something else is done to",

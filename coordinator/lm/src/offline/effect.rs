@@ -53,6 +53,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         };
         let sets_down = clauses.iter().any(|clause| {
             holds(clause)
+                && !clause.objects.is_empty()
                 && clause.places.iter().any(|place| {
                     matches!(place.relation, Relation::To)
                         || place.relation == Relation::In

@@ -153,7 +153,7 @@ struct File {
     #[serde(default)]
     under: BTreeMap<String, String>,
     #[serde(default)]
-    inside: BTreeMap<String, Vec<String>>,
+    inside: BTreeMap<String, BTreeMap<String, Vec<String>>>,
     #[serde(default)]
     likes: BTreeMap<String, Vec<String>>,
 }
@@ -172,7 +172,7 @@ pub struct Lexicon {
     controls: BTreeMap<String, String>,
     homes: BTreeMap<String, Vec<String>>,
     under: BTreeMap<String, String>,
-    inside: BTreeMap<String, Vec<String>>,
+    inside: BTreeMap<String, BTreeMap<String, Vec<String>>>,
     likes: BTreeMap<String, Vec<String>>,
     vocabulary: BTreeSet<String>,
 }
@@ -367,9 +367,9 @@ impl Lexicon {
         own.chain(self.homes.get("anything").into_iter().flatten()).map(String::as_str)
     }
 
-    /// What a word means for something inside a vessel.
-    pub fn inside(&self, word: &str) -> Option<&[String]> {
-        self.inside.get(word).map(Vec::as_slice)
+    /// What a word means for something in or on a vessel of a type.
+    pub fn inside(&self, word: &str, vessel: &str) -> Option<&[String]> {
+        self.inside.get(word)?.get(vessel).map(Vec::as_slice)
     }
 
     /// What is called by a type's name where there is none of the type, the likelier first.

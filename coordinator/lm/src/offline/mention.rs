@@ -172,7 +172,7 @@ impl<'a> Discourse<'a> {
             }
             let mut narrowed = phrase.clone();
             narrowed.indefinite |= phrase.quantity == Quantity::One && !phrase.definite;
-            let kinds = self.lexicon.inside(&noun.word).unwrap_or(&noun.kinds);
+            let kinds = self.lexicon.inside(&noun.word, &fitting[0]).unwrap_or(&noun.kinds);
             narrowed.head = Head::Noun(Noun {
                 kinds: kinds
                     .iter()
@@ -266,7 +266,11 @@ impl<'a> Discourse<'a> {
                 let most = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).max().unwrap_or(1);
                 self.several(&kinds, most.min(2), phrase, at)
             }
-            Quantity::All => self.every(&kinds[..1.min(kinds.len())], phrase, at),
+            Quantity::All => {
+                // "the towels": of what the word may mean, that of which there are several.
+                kinds.sort_by_key(|kind| self.scene.of_kind(kind).len() < 2);
+                self.every(&kinds[..1.min(kinds.len())], phrase, at)
+            }
         }
     }
 
@@ -395,6 +399,15 @@ impl<'a> Discourse<'a> {
             None if sliced => {}
             None => {
                 let there: usize = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).sum();
+                if there < count
+                    && let Some(alike) = self.alike(kinds, count)
+                {
+                    let text = format!("there are not {count} of \"{}\" here; {alike} is taken", phrase.text);
+                    self.assume(text, 0.6);
+                    return (0..count)
+                        .map(|_| self.add(vec![alike.clone()], Which::Any, &phrase.text))
+                        .collect();
+                }
                 if there < count {
                     self.problem(
                         format!("there are not {count} of \"{}\" here, only {there}", phrase.text),
@@ -414,6 +427,15 @@ impl<'a> Discourse<'a> {
                 .collect();
         }
         (0..count).map(|_| self.add(order.clone(), Which::Any, &phrase.text)).collect()
+    }
+
+    /// A type that is called by the name of one of the types, where there are so many of it.
+    fn alike(&self, kinds: &[String], count: usize) -> Option<String> {
+        let others = kinds.iter().flat_map(|kind| self.lexicon.likes(kind));
+        others
+            .filter(|kind| !kinds.contains(kind))
+            .find(|kind| self.scene.of_kind(kind).len() >= count)
+            .cloned()
     }
 
     /// Every object of the types that is picked out.

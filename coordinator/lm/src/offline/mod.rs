@@ -289,10 +289,7 @@ fn one_clause<'a>(
     // What was named and is not here is not to be replaced by what a situation would do.
     let says_little = is_weak(clause, lexicon)
         || !clause.objects.iter().any(|p| matches!(p.head, syntax::Head::Noun(_) | syntax::Head::Named(_)));
-    if failed
-        && says_little
-        && (!absent || is_weak(clause, lexicon))
-    {
+    if failed && says_little && (!absent || is_weak(clause, lexicon)) {
         let ranked = situation::ranked(situations, &words, false);
         let literal = Snapshot::take(interpreter);
         before.restore(interpreter);
@@ -399,6 +396,7 @@ impl Snapshot {
 
 /// "wash and slice the apple": the first verb's object is said with the second.
 fn share_objects(clauses: &mut [Clause<'_>]) {
+    share_with_a_row_of_verbs(clauses);
     for i in 0..clauses.len().saturating_sub(1) {
         let (front, back) = clauses.split_at_mut(i + 1);
         let (first, second) = (&mut front[i], &mut back[0]);
@@ -409,14 +407,8 @@ fn share_objects(clauses: &mut [Clause<'_>]) {
         {
             first.objects.clone_from(&second.objects);
         }
-        let needs_object = first.verbs.iter().any(|verb| {
-            matches!(
-                verb.act,
-                Act::Set | Act::Heat | Act::Cook | Act::Chill | Act::Hold | Act::Examine | Act::Place
-            )
-        });
-        let is_pronoun = |phrase: &syntax::Phrase| matches!(phrase.head, syntax::Head::Pronoun { .. });
-        let bare = first.objects.is_empty() && first.places.is_empty() && first.complement.is_empty();
+        let needs_object = needs_object(first);
+        let bare = is_bare(first);
         let forward = first.objects.len() == 1 && is_pronoun(&first.objects[0]) && i == 0;
         let said = !second.objects.is_empty() && !second.objects.iter().any(is_pronoun);
         if needs_object && (bare && i == 0 || forward) && said {
@@ -426,6 +418,47 @@ fn share_objects(clauses: &mut [Clause<'_>]) {
             second.objects = vec![syntax::Phrase::bare(head, if plural { "them" } else { "it" })];
         }
     }
+}
+
+/// "wash, slice and chill the tomato": what the last verb is said of holds for all.
+fn share_with_a_row_of_verbs(clauses: &mut [Clause<'_>]) {
+    let row = clauses.iter().take_while(|clause| needs_object(clause) && is_bare(clause)).count();
+    let Some(last) = clauses.get(row).filter(|last| row > 1 && !last.objects.is_empty()) else { return };
+    if last.objects.iter().any(is_pronoun) {
+        return;
+    }
+    let objects = last.objects.clone();
+    let plural = objects.len() > 1;
+    let pronoun = syntax::Phrase::bare(syntax::Head::Pronoun { plural }, if plural { "them" } else { "it" });
+    for clause in &mut clauses[1..=row] {
+        clause.objects = vec![pronoun.clone()];
+    }
+    clauses[0].objects = objects;
+}
+
+fn needs_object(clause: &Clause<'_>) -> bool {
+    clause.verbs.iter().any(|verb| {
+        matches!(
+            verb.act,
+            Act::Set
+                | Act::Heat
+                | Act::Cook
+                | Act::Chill
+                | Act::Hold
+                | Act::Examine
+                | Act::Place
+                | Act::Discard
+        )
+    })
+}
+
+/// Whether a clause is a verb and nothing else.
+fn is_bare(clause: &Clause<'_>) -> bool {
+    clause.objects.is_empty() && clause.places.is_empty() && clause.complement.is_empty()
+}
+
+fn is_pronoun(phrase: &syntax::Phrase) -> bool {
+    matches!(phrase.head, syntax::Head::Pronoun { .. })
 }
 
 fn as_situation(
@@ -474,7 +507,12 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
     let subtasks = Emitter::new(&mut discourse, facts, &stays).subtasks(clauses);
     let confidence = if subtasks.is_empty() { 0.0 } else { discourse.confidence.value() };
     Reading {
-        decomposition: Decomposition { subtasks, assumptions: discourse.assumptions, confidence, bans: discourse.bans },
+        decomposition: Decomposition {
+            subtasks,
+            assumptions: discourse.assumptions,
+            confidence,
+            bans: discourse.bans,
+        },
         problems: discourse.problems,
         others: Vec::new(),
         only_goes: !clauses.is_empty() && clauses.iter().all(only_goes),

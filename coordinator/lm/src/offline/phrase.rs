@@ -4,7 +4,6 @@ use super::clause::Parser;
 use super::inflect;
 use super::lexicon::{LONGEST, Lexicon, Noun};
 use super::syntax::{Head, Phrase, Quantity, is_determiner, is_function_word, preposition};
-use super::text::POSSESSIVE;
 
 /// Noun phrases within noun phrases go no deeper than this.
 const DEEPEST: usize = 4;
@@ -56,7 +55,7 @@ impl Parser<'_> {
         }
         if sliced {
             phrase.states.insert("isSliced".to_owned(), super::yes());
-            if phrase.quantity == Quantity::All && quantity.is_none() {
+            if phrase.quantity == Quantity::All && quantity.is_none() && phrase.head != Head::Slices {
                 phrase.quantity = Quantity::One;
             }
         }
@@ -94,6 +93,12 @@ impl Parser<'_> {
             if self.measure(front) {
                 continue;
             }
+            // "a light brown cabinet" is no light.
+            let shade = self.lexicon.longest_small("modifiers", &self.rest()).filter(|&length| length > 1);
+            if let Some(length) = shade.filter(|&length| self.noun_follows(length)) {
+                self.position += length;
+                continue;
+            }
             if let Some((noun, plural, length)) = self.longest_noun()
                 && (length > 1 || !self.is_adjective_before_noun())
             {
@@ -112,7 +117,7 @@ impl Parser<'_> {
                 return Some(Head::Slices);
             }
             if let Some(length) = self.lexicon.longest_small("modifiers", &self.rest())
-                && self.noun_follows(length)
+                && (self.noun_follows(length) || self.adjective_follows(length))
             {
                 self.position += length;
                 continue;
@@ -161,7 +166,7 @@ impl Parser<'_> {
             return Some(Head::Unknown(next.to_owned()));
         }
         if front.chained < LONGEST
-            && self.longest_noun().is_some()
+            && (self.longest_noun().is_some() || self.modifiers_and_noun_follow())
             && (known_modifier || self.position > start)
         {
             if !known_modifier {
@@ -258,6 +263,9 @@ impl Parser<'_> {
                 continue;
             }
             let words = &rest[..length];
+            if self.is_shelf_of_furniture(words) {
+                continue;
+            }
             // "a box of keys" is a box.
             if words == ["box"] && self.scene.has("Box") {
                 continue;
@@ -311,37 +319,6 @@ impl Parser<'_> {
     fn is_slices(&self, word: &str) -> bool {
         inflect::singulars(word).iter().any(|s| self.lexicon.is_small("slices", &[s.as_str()]))
             || self.lexicon.is_small("slices", &[word])
-    }
-
-    /// Takes the noun, and the nouns right behind it: of "dresser drawer" the last is the head.
-    fn noun_head(&mut self, noun: Noun, plural: bool, length: usize, front: &mut Front) -> Head {
-        self.position += length;
-        let (mut noun, mut plural) = (noun, plural);
-        while let Some(word) = self.peek() {
-            if word == POSSESSIVE {
-                self.position += 1;
-                front.chained += 1;
-                if front.chained < LONGEST && self.noun_follows(0) {
-                    return self.head(front).unwrap_or(Head::Noun(noun));
-                }
-                plural = true;
-                continue;
-            }
-            if self.is_slices(word) && self.has_affordance(&noun, "sliceable") {
-                front.sliced = true;
-                plural |= word.ends_with('s');
-                self.position += 1;
-                continue;
-            }
-            let Some((next, next_plural, next_length)) = self.longest_noun() else { break };
-            if self.verb_reads_better(next_length) || self.are_two_things(&noun, &next) {
-                break;
-            }
-            (noun, plural) = (next, next_plural);
-            self.position += next_length;
-        }
-        front.plural |= plural;
-        Head::Noun(noun)
     }
 
     /// Whether the next word is rather the verb of a new clause ("... the cup toast the bread").
@@ -483,6 +460,7 @@ pub(super) fn nouns<'a>(words: &'a [String], lexicon: &'a Lexicon) -> Vec<NounAt
     (0..words.len()).map(at).collect()
 }
 
+mod compound;
 mod mend;
 mod tail;
 mod usage;

@@ -31,7 +31,12 @@ impl<'a> Scene<'a> {
             words.insert(phrase.replace(' ', ""));
             words.extend(phrase.split(' ').map(str::to_owned));
         }
-        Self { objects: objects.iter().map(|object| (object.name.as_str(), object)).collect(), kinds, words, team }
+        Self {
+            objects: objects.iter().map(|object| (object.name.as_str(), object)).collect(),
+            kinds,
+            words,
+            team,
+        }
     }
 
     /// The objects of a type, in the order of their numbers.

@@ -126,7 +126,12 @@ pub fn ranked<'s>(
 
 impl Interpreter<'_, '_> {
     /// The first of some situations that the scene has something for; false if there is none.
-    pub fn first_situation(&mut self, index: usize, ranked: &[(&Situation, usize)], words: &[String]) -> bool {
+    pub fn first_situation(
+        &mut self,
+        index: usize,
+        ranked: &[(&Situation, usize)],
+        words: &[String],
+    ) -> bool {
         ranked.iter().any(|(situation, _)| self.situation(index, situation, words))
     }
 
@@ -191,7 +196,9 @@ impl Interpreter<'_, '_> {
         let (scene, lexicon) = (self.discourse.scene, self.discourse.lexicon);
         // "read his paper" is about the newspaper, whatever else there is to read.
         let named = |kind: &&String| {
-            words.iter().any(|word| lexicon.noun(&[word]).is_some_and(|(noun, _)| noun.kinds.first() == Some(kind)))
+            words
+                .iter()
+                .any(|word| lexicon.noun(&[word]).is_some_and(|(noun, _)| noun.kinds.first() == Some(kind)))
         };
         let mut found = Vec::new();
         for kind in template.each.iter().filter(|kind| scene.has(kind)) {

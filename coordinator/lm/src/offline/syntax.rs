@@ -353,6 +353,9 @@ const PREPOSITIONS: [(&str, Relation); 85] = [
 /// The preposition at the start of the words: its relation and length.
 pub fn preposition(words: &[&str]) -> Option<(Relation, usize)> {
     let first = words.first()?;
+    if let Some(length) = to_one_side_of(words) {
+        return Some((Relation::Near, length));
+    }
     PREPOSITIONS.iter().find_map(|(phrase, relation)| {
         let mut parts = phrase.split(' ');
         if parts.next() != Some(first) {
@@ -362,6 +365,29 @@ pub fn preposition(words: &[&str]) -> Option<(Relation, usize)> {
         let fits = words.len() >= length && phrase.split(' ').zip(words).all(|(a, b)| a == *b);
         fits.then_some((*relation, length))
     })
+}
+
+/// "to the bottom left of", "to the far right side of": its length.
+fn to_one_side_of(words: &[&str]) -> Option<usize> {
+    const SIDES: [&str; 13] = [
+        "left",
+        "right",
+        "side",
+        "hand",
+        "far",
+        "near",
+        "bottom",
+        "top",
+        "upper",
+        "lower",
+        "immediate",
+        "other",
+        "rear",
+    ];
+    let sides = words.strip_prefix(&["to", "the"])?;
+    let length = sides.iter().take_while(|word| SIDES.contains(word)).count();
+    let beside = sides[..length].iter().any(|word| ["left", "right", "side"].contains(word));
+    (beside && sides.get(length) == Some(&"of")).then_some(length + 3)
 }
 
 const FUNCTION_WORDS: [&str; 98] = [

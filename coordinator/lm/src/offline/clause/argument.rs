@@ -23,7 +23,11 @@ impl<'a> Parser<'a> {
             return true;
         }
         let next = self.word_at(1);
-        if preposition(&self.rest()).is_some_and(|(_, length)| length > 1) {
+        // "turn the lamp on to see": no "onto".
+        let purpose = next == Some("to")
+            && self.ahead(2).verbs_here().is_some()
+            && self.ahead(2).longest_noun().is_none();
+        if !purpose && preposition(&self.rest()).is_some_and(|(_, length)| length > 1) {
             return false;
         }
         let free = next.is_none_or(|next| {
@@ -84,8 +88,13 @@ impl<'a> Parser<'a> {
         }
         clause.places = vec![Place::new(Relation::In, "in", vessel.clone())];
         clause.objects = things;
-        clause.verbs =
-            self.lexicon.verbs("put").into_iter().filter(|(_, p, _)| p.is_empty()).map(|(_, _, v)| v).collect();
+        clause.verbs = self
+            .lexicon
+            .verbs("put")
+            .into_iter()
+            .filter(|(_, p, _)| p.is_empty())
+            .map(|(_, _, v)| v)
+            .collect();
         clause.verb_text = "put".to_owned();
         true
     }
@@ -302,7 +311,8 @@ impl<'a> Parser<'a> {
             behind.position += usize::from(behind.peek().is_some_and(is_going));
             let goes_elsewhere = preposition(&behind.rest())
                 .is_some_and(|(other, _)| other != Relation::From && other != Relation::With);
-            let another_pair = relation != Relation::From && (goes_elsewhere || preposition(&self.rest()).is_some())
+            let another_pair = relation != Relation::From
+                && (goes_elsewhere || preposition(&self.rest()).is_some())
                 || matches!(self.peek(), Some("on" | "off" | "should" | "must" | "is" | "are" | "needs"));
             if another_pair {
                 self.position = start;

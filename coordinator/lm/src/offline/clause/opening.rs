@@ -1,6 +1,8 @@
 //! What opens a clause: joins, politeness, order words, negation, who is spoken to.
 
-use super::super::syntax::Link;
+use super::super::inflect::VerbForm;
+use super::super::lexicon::Act;
+use super::super::syntax::{Link, preposition};
 use super::Parser;
 
 /// What opens a clause.
@@ -60,6 +62,7 @@ impl Parser<'_> {
             opening.sentence |= word == ".";
             match word {
                 "let" if self.ahead(1).verbs_here().is_some() => {}
+                "go" | "come" if self.another_verb_follows() => {}
                 "should" | "shall" | "must" | "can" | "has" | "will" if !opening.robots.is_empty() => {}
                 "have" | "let" if self.ahead(1).robot().is_some() => {}
                 "if" => {
@@ -113,6 +116,27 @@ impl Parser<'_> {
         ends && state.is_some_and(|state| state.set.keys().any(|p| p == "isOpen" || p == "isToggled"))
     }
 
+    /// "… so (that) you can put it on the table": an order after all; how many words stand before its verb.
+    fn so_you_can_put(&self) -> Option<usize> {
+        let person = if self.word_at(1) == Some("that") { 2 } else { 1 };
+        let can = matches!(self.word_at(person), Some("you" | "i" | "we"))
+            && matches!(self.word_at(person + 1), Some("can" | "could" | "may"));
+        let placing =
+            |verbs: &[&super::super::lexicon::Verb]| verbs.iter().any(|verb| verb.act == Act::Place);
+        let puts = self.ahead(person + 2).verbs_here().is_some_and(|(_, verbs, _)| placing(&verbs));
+        (can && puts).then_some(person + 2)
+    }
+
+    /// "go turn on the lamp": the going says nothing.
+    fn another_verb_follows(&self) -> bool {
+        let ahead = self.ahead(1);
+        ahead.longest_noun().is_none()
+            && ahead.peek().is_some_and(|word| preposition(&[word]).is_none())
+            && ahead.verbs_here().is_some_and(|(form, verbs, _)| {
+                form == VerbForm::Base && verbs.iter().any(|verb| verb.act != Act::Go)
+            })
+    }
+
     /// "… . Once it is clean, put it away": what is said first is done first.
     fn is_fronted(&self) -> bool {
         let before = self.position.checked_sub(1).and_then(|at| self.words.get(at));
@@ -125,6 +149,10 @@ impl Parser<'_> {
             ["i", "we", "you", "he", "she", "they", "it", "that", "nobody", "everyone"];
         let why = match self.peek() {
             Some("because") => true,
+            Some("so") if self.so_you_can_put().is_some() => {
+                self.position += self.so_you_can_put().unwrap_or(0);
+                return true;
+            }
             Some("so" | "since") => self.word_at(1).is_some_and(|word| PERSONS.contains(&word)),
             _ => false,
         };

@@ -2,7 +2,7 @@
 
 use super::super::lexicon::{Act, Verb};
 use super::super::mention::Spoken;
-use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
+use super::super::syntax::{Clause, Head, Link, Phrase, Place, Relation};
 use super::{Change, Interpreter};
 
 impl<'a> Interpreter<'_, 'a> {
@@ -22,10 +22,15 @@ impl<'a> Interpreter<'_, 'a> {
             if let Some(inner) = inner {
                 return self.put_nested(clause, &at, &inner, &goal);
             }
+            if let Some(under) = self.is_said_to_stand(&goal) {
+                return self.put_nested(clause, &at, &goal, &under);
+            }
             return self.put(clause, &at, &goal);
         }
+        let meanwhile = clause.link == Link::While && self.lamp_wanted && self.switches_on;
         if let Some(near) = clause.places.iter().find(|place| place.relation == Relation::Near)
             && verb.act == Act::Place
+            && !meanwhile
         {
             return self.put_beside(clause, &at, near);
         }
@@ -80,12 +85,31 @@ impl<'a> Interpreter<'_, 'a> {
         Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
     }
 
+    /// "in a box that is on a chair": the box is on the chair in the end.
+    fn is_said_to_stand(&self, goal: &Place) -> Option<Place> {
+        let scene = self.discourse.scene;
+        let vessel = matches!(&goal.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
+            scene.affords(kind, "pickupable") && scene.affords(kind, "receptacle")
+        }));
+        let takes = |place: &&Place| {
+            place.relation == Relation::In
+                && matches!(&place.phrase.head, Head::Noun(noun)
+                    if noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")))
+        };
+        goal.phrase.at.iter().find(takes).filter(|_| vessel).cloned()
+    }
+
     /// "set the table with a plate and a fork": the plate and the fork go on the table.
     fn laid_with(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
         let [place] = clause.objects.as_slice() else { return None };
         let with = |place: &&Place| place.relation == Relation::With && self.is_movable(&place.phrase);
-        let things: Vec<Phrase> =
-            clause.places.iter().filter(with).map(|place| place.phrase.clone()).chain(place.with.clone()).collect();
+        let things: Vec<Phrase> = clause
+            .places
+            .iter()
+            .filter(with)
+            .map(|place| place.phrase.clone())
+            .chain(place.with.clone())
+            .collect();
         let takes = matches!(&place.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
             self.discourse.scene.affords(kind, "receptacle") && !self.discourse.scene.affords(kind, "pickupable")
         }));
@@ -162,8 +186,14 @@ impl<'a> Interpreter<'_, 'a> {
                 scene.has(k) && self.discourse.lexicon.is_small("compartments", &[&k.to_lowercase()])
             }))
         };
+        // "on the top shelf inside the fridge": a part of the fridge.
+        let shelves_of_its_own = |i: usize| {
+            matches!(&clause.places[i].phrase.head, Head::Noun(noun)
+                if noun.kinds.first().is_some_and(|k| scene.affords(k, "isColdSource")))
+        };
         let (goal, inner) = match goals.as_slice() {
             [.., a, b] if movable(*a) && !movable(*b) => (*b, Some(*a)),
+            [a, b] if compartment(*a) && shelves_of_its_own(*b) => (*b, None),
             [a, b] if compartment(*a) && !compartment(*b) && relation(*b) == Relation::In => (*a, None),
             _ => (to.unwrap_or(last), None),
         };
@@ -185,7 +215,9 @@ impl<'a> Interpreter<'_, 'a> {
             noun.kinds.sort_by_key(|kind| !defaults.contains(&kind));
         }
         let mut places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
-        if matches!(goal.phrase.head, Head::Pronoun { .. }) && places.iter().any(|place| objects.contains(place)) {
+        if matches!(goal.phrase.head, Head::Pronoun { .. })
+            && places.iter().any(|place| objects.contains(place))
+        {
             places = self.place_spoken_of(&objects).into_iter().collect();
         }
         self.leave_what_does_not_fit(clause, &mut objects, &places);

@@ -83,7 +83,8 @@ impl Parser<'_> {
         for length in 1..=behind.len() {
             let said = &behind[..length];
             let next = self.word_at(offset + length);
-            if preposition(&[&said[length - 1]]).is_some() && next.is_some_and(|next| self.begins_a_thing(next))
+            if preposition(&[&said[length - 1]]).is_some()
+                && next.is_some_and(|next| self.begins_a_thing(next))
             {
                 continue;
             }
@@ -117,7 +118,8 @@ impl Parser<'_> {
     /// "something to cut the bread with": what it is used on is no part of the goal.
     fn pass_over_object(&mut self) {
         let start = self.position;
-        if self.peek().is_some_and(|word| self.begins_a_thing(word)) && self.phrase(super::DEEPEST).is_none() {
+        if self.peek().is_some_and(|word| self.begins_a_thing(word)) && self.phrase(super::DEEPEST).is_none()
+        {
             self.position = start;
             return;
         }
