@@ -47,7 +47,7 @@ fn understood(world: &WorldSetup, answer: Value, cassette: &Path) -> Understandi
         deadline: Duration::from_secs(10),
     };
     let never = AtomicBool::new(false);
-    let mut ask =
+    let ask =
         |model: &mut dyn lamma_lm::LanguageModel| match decompose(model, world, &facts, &instruction, &never)
         {
             Understood::Yes(understanding) => understanding,

@@ -120,7 +120,7 @@ fn interleave(planned: &Planned, plan: &TeamPlan) -> Result<usize, String> {
         let mut stuck = true;
         for member in 0..members {
             let Some(step) = plan.steps[member].get(done[member]) else { continue };
-            if step.gates.iter().any(|gate| done[gate.agent.index()] < gate.step.index()) {
+            if step.gates.iter().any(|gate| done[gate.agent.index()] < gate.done.index()) {
                 continue;
             }
             stuck = false;
