@@ -35,7 +35,7 @@ fn one(task: &lamma_domains::tasks::Task, conflicts: u64) -> Result<String, Stri
     let grounded = start.elapsed();
     let floor = joint.floor().ok_or("the goal is out of reach")?;
     let floored = start.elapsed();
-    let limits = MakespanLimits { conflicts, size: 20_000_000, time: None };
+    let limits = MakespanLimits { conflicts, size: 20_000_000, ..MakespanLimits::default() };
     let found =
         joint.shortest(floor, None, &limits, &AtomicBool::new(false)).ok_or("the goal is out of reach")?;
     let makespan = found.schedule.map_or("-".into(), |s| s.makespan().to_string());

@@ -24,8 +24,8 @@ pub use makespan::{Makespan, MakespanLimits, Schedule, Scheduler};
 pub use plan::{GroundAct, Literal, Plan};
 pub use sas::write_sas;
 pub use search::{
-    Anytime, Engine, GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, plan, plan_with,
-    relaxed_plan_cost, solve, solve_anytime,
+    Anytime, Countdown, Engine, GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, plan,
+    plan_with, relaxed_plan_cost, solve, solve_anytime,
 };
 pub use task::{FactId, OperatorId, State, Task};
 pub use validate::{Verdict, read_plan, validate, write_plan};

@@ -117,6 +117,16 @@ impl<'a> Relaxation<'a> {
         }
     }
 
+    /// Other costs of operators from now on.
+    pub(crate) fn set_costs(&mut self, costs: impl Fn(OperatorId) -> u32) {
+        for (node, &operator) in self.fresh.iter_mut().zip(&self.graph.operator_of) {
+            if operator != NO_NODE {
+                node.base = costs(OperatorId(operator));
+                node.cost = node.base;
+            }
+        }
+    }
+
     /// Works out the costs of facts, until all goals are final or (`exhaustive`) everything is reached.
     /// `MAX`: a node costs as much as its dearest condition; else as all of them together.
     fn propagate<const MAX: bool>(&mut self, state: &[u64], exhaustive: bool) {

@@ -9,6 +9,7 @@ mod novelty;
 mod open_list;
 mod portfolio;
 mod registry;
+mod spread;
 
 use std::rc::Rc;
 use std::sync::atomic::AtomicBool;
@@ -17,7 +18,8 @@ use lamma_pddl::ast::{Domain, Problem};
 
 pub use anytime::{Anytime, solve_anytime};
 pub(crate) use improve::eliminate;
-pub use limits::{GaveUp, Limits, Outcome, Unsolvable};
+pub use limits::{Countdown, GaveUp, Limits, Outcome, Unsolvable};
+pub use spread::spread;
 
 use crate::ground::{GroundError, ground};
 use crate::heuristic::{Blind, Costs, Graph, Heuristic, LandmarkCut, Relaxation};
