@@ -1,148 +1,146 @@
 //! How allocation scales: exact with a proof while it is small, by auction and local improvement with the gap
-//! to a lower bound when it is large.
+//! to a lower bound when it is large; on random instances of several kinds.
 //!
-//! `cargo run --release -p lamma-coordinator --example allocation [-- --svg FILE]`
+//! `cargo run --release -p lamma-coordinator --example allocation [-- --seeds N] [--svg FILE]`
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 use std::time::Instant;
 
-use lamma_coordinator::assign::{Assignment, Work, assign_proved};
+use lamma_coordinator::assign::{Work, assign_proved};
+use lamma_plot::{Chart, Series};
 
-/// Instances of each size.
-const SEEDS: u64 = 10;
+/// Sub-tasks and robots where a proof is asked for.
+const EXACT: [(usize, usize); 4] = [(5, 2), (10, 3), (15, 4), (20, 6)];
+/// Sub-tasks and robots where the gap to the bound is what there is.
+const LARGE: [(usize, usize); 4] = [(125, 12), (250, 25), (500, 50), (1000, 100)];
 
-struct Measured {
-    label: String,
-    pieces: usize,
-    worst_ms: f64,
-    mean_ms: f64,
-    proved: u64,
-    gap: f64,
-}
+/// Kinds of instances, with a colour for the plot.
+const KINDS: [(&str, &str, Draw); 5] = [
+    ("unrelated", "#1f77b4", unrelated),
+    ("related", "#ff7f0e", related),
+    ("skills 70 %", "#2ca02c", skilled),
+    ("capacity", "#d62728", capacity),
+    ("precedence", "#9467bd", precedence),
+];
+
+type Draw = fn(&mut Random, usize, usize) -> Vec<Work>;
 
 fn main() -> std::io::Result<()> {
-    let svg = std::env::args().skip_while(|a| a != "--svg").nth(1);
-    println!("sub-tasks x robots, {SEEDS} instances each: 70 % skills, 3 to 20 steps, uneven robots");
-    println!("{:<34} {:>9} {:>9} {:>7} {:>8}", "", "mean ms", "worst ms", "proved", "mean gap");
-    let exact = [(5, 2), (10, 3), (15, 4), (20, 6)];
-    let chained = [(5, 2), (10, 3), (15, 4), (20, 6)];
-    let large = [(125, 12), (250, 25), (500, 50), (1000, 100)];
-    let mut rows: Vec<Vec<Measured>> = Vec::new();
-    for (name, sizes, chain) in [("exact", exact, 0), ("exact, ordered", chained, 8), ("auction", large, 0)] {
-        let measured: Vec<Measured> = sizes.iter().map(|&(n, m)| measure(name, n, m, chain)).collect();
-        for row in &measured {
-            println!(
-                "{:<34} {:>9.2} {:>9.2} {:>4}/{SEEDS} {:>7.2}%",
-                row.label,
-                row.mean_ms,
-                row.worst_ms,
-                row.proved,
-                row.gap * 100.0
-            );
-        }
-        rows.push(measured);
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let value = |flag: &str| args.iter().position(|a| a == flag).and_then(|at| args.get(at + 1));
+    let seeds: u64 = value("--seeds").and_then(|n| n.parse().ok()).unwrap_or(50);
+    println!("{seeds} instances of each kind and size");
+    println!(
+        "{:<14}{:>12}{:>10}{:>10}{:>10}{:>10}{:>10}",
+        "kind", "size", "p50 ms", "max ms", "proved", "mean gap", "max gap"
+    );
+    let mut charts = Vec::new();
+    for (title, sizes, seeds) in [
+        ("exact: slowest of all, ms", EXACT, seeds),
+        ("auction: slowest of all, ms", LARGE, seeds.div_ceil(5)),
+    ] {
+        let series = KINDS.map(|(kind, colour, draw)| {
+            let points =
+                sizes.map(|(pieces, members)| (pieces as f64, measure(kind, draw, pieces, members, seeds)));
+            Series { name: kind, colour, points: points.to_vec() }
+        });
+        charts.push(Chart { title, over: "sub-tasks", series: series.into() });
     }
-    if let Some(file) = svg {
-        std::fs::write(&file, plot(&rows))?;
+    if let Some(file) = value("--svg") {
+        std::fs::write(file, lamma_plot::svg(&charts))?;
         println!("plot in {file}");
     }
     Ok(())
 }
 
-/// `chain`: of ten pieces, so many wait for an earlier one, at most.
-fn measure(name: &str, pieces: usize, members: usize, chain: u64) -> Measured {
+/// Prints a line of the table; returns the longest time in milliseconds.
+fn measure(kind: &str, draw: Draw, pieces: usize, members: usize, seeds: u64) -> f64 {
     let (mut times, mut gaps, mut proved) = (Vec::new(), Vec::new(), 0);
-    for seed in 1..=SEEDS {
-        let work = instance(seed, pieces, members, chain);
+    for seed in 1..=seeds {
+        let work = draw(&mut Random::new(seed), pieces, members);
         let start = Instant::now();
-        let found: Assignment = assign_proved(&work);
+        let found = assign_proved(&work);
         times.push(start.elapsed().as_secs_f64() * 1e3);
         proved += u64::from(found.is_proved());
         gaps.push(found.makespan as f64 / found.bound.max(1) as f64 - 1.0);
     }
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    Measured {
-        label: format!("{name}: {pieces} x {members}"),
-        pieces,
-        worst_ms: times.iter().copied().fold(0.0, f64::max),
-        mean_ms: mean(&times),
-        proved,
-        gap: mean(&gaps),
-    }
-}
-
-fn instance(seed: u64, pieces: usize, members: usize, chain: u64) -> Vec<Work> {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    let mut below = |n: u64| {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) % n
-    };
-    (0..pieces)
-        .map(|i| {
-            let steps = 3 + below(12);
-            let mut cost: BTreeMap<usize, u64> = BTreeMap::new();
-            for member in 0..members {
-                if below(10) < 7 {
-                    cost.insert(member, steps + below(7));
-                }
-            }
-            cost.entry(below(members as u64) as usize).or_insert(steps);
-            let waits = i > 0 && below(10) < chain / 2;
-            let after = if waits { vec![below(i as u64) as usize] } else { Vec::new() };
-            Work { after, cost }
-        })
-        .collect()
-}
-
-/// Both axes logarithmic; a line for each series.
-fn plot(rows: &[Vec<Measured>]) -> String {
-    let x = |pieces: usize| 60.0 + (pieces as f64 / 4.0).log10() / 250f64.log10() * 520.0;
-    let y = |ms: f64| 340.0 - (ms.max(0.001) / 0.001).log10() / 6.0 * 300.0;
-    let mut out = String::from(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 640 400\" font-family=\"sans-serif\" font-size=\"12\">\n\
-         <rect width=\"640\" height=\"400\" fill=\"white\"/>\n\
-         <text x=\"60\" y=\"22\">Allocation: mean time by number of sub-tasks (both logarithmic)</text>\n",
+    times.sort_by(f64::total_cmp);
+    gaps.sort_by(f64::total_cmp);
+    let (slowest, widest) = (times[times.len() - 1], gaps[gaps.len() - 1]);
+    println!(
+        "{kind:<14}{:>12}{:>10.2}{slowest:>10.2}{:>10}{:>9.2}%{:>9.2}%",
+        format!("{pieces} x {members}"),
+        times[times.len() / 2],
+        format!("{proved}/{seeds}"),
+        gaps.iter().sum::<f64>() / gaps.len() as f64 * 100.0,
+        widest * 100.0
     );
-    for (ms, label) in [(0.001, "1 µs"), (0.1, "0.1 ms"), (10.0, "10 ms"), (1000.0, "1 s")] {
-        let at = y(ms);
-        let _ = writeln!(
-            out,
-            "<path d=\"M60 {at:.1}H600\" stroke=\"#ddd\"/><text x=\"8\" y=\"{:.1}\">{label}</text>",
-            at + 4.0
-        );
+    slowest
+}
+
+/// Xorshift: the same instances everywhere.
+struct Random(u64);
+
+impl Random {
+    fn new(seed: u64) -> Self {
+        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
     }
-    for pieces in [5, 10, 20, 125, 250, 500, 1000] {
-        let _ =
-            writeln!(out, "<text x=\"{:.1}\" y=\"362\" text-anchor=\"middle\">{pieces}</text>", x(pieces));
+
+    fn below(&mut self, n: u64) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) % n
     }
-    for (series, colour) in rows.iter().zip(["#06c", "#c60", "#090"]) {
-        let points: Vec<String> =
-            series.iter().map(|r| format!("{:.1},{:.1}", x(r.pieces), y(r.mean_ms))).collect();
-        let _ =
-            writeln!(out, "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\"/>", points.join(" "));
-        for row in series {
-            let _ = writeln!(
-                out,
-                "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"3\" fill=\"{colour}\"><title>{}: {:.2} ms</title></circle>",
-                x(row.pieces),
-                y(row.mean_ms),
-                row.label,
-                row.mean_ms
-            );
+}
+
+fn free(cost: BTreeMap<usize, u64>) -> Work {
+    Work { after: Vec::new(), cost }
+}
+
+/// Every robot takes its own time for everything: 3 to 20 steps.
+fn unrelated(random: &mut Random, pieces: usize, members: usize) -> Vec<Work> {
+    (0..pieces).map(|_| free((0..members).map(|m| (m, 3 + random.below(18))).collect())).collect()
+}
+
+/// Robots differ in pace, sub-tasks in size.
+fn related(random: &mut Random, pieces: usize, members: usize) -> Vec<Work> {
+    let pace: Vec<u64> = (0..members).map(|_| 10 + random.below(11)).collect();
+    let piece =
+        |size: u64| free(pace.iter().enumerate().map(|(m, p)| (m, (size * p).div_ceil(10))).collect());
+    (0..pieces).map(|_| piece(3 + random.below(12))).collect()
+}
+
+/// A robot has seven skills of ten; what it can do takes it about as long as the others.
+fn skilled(random: &mut Random, pieces: usize, members: usize) -> Vec<Work> {
+    let mut piece = || {
+        let steps = 3 + random.below(12);
+        let able: Vec<usize> = (0..members).filter(|_| random.below(10) < 7).collect();
+        let mut cost: BTreeMap<usize, u64> = able.into_iter().map(|m| (m, steps + random.below(7))).collect();
+        cost.entry(random.below(members as u64) as usize).or_insert(steps);
+        free(cost)
+    };
+    (0..pieces).map(|_| piece()).collect()
+}
+
+/// What a robot can lift differs; the strongest can do everything.
+fn capacity(random: &mut Random, pieces: usize, members: usize) -> Vec<Work> {
+    let lifts: Vec<u64> = (0..members).map(|m| if m == 0 { 100 } else { 10 + random.below(90) }).collect();
+    let mut piece = || {
+        let (mass, steps) = (random.below(100), 3 + random.below(12));
+        let able = lifts.iter().enumerate().filter(|(_, lifts)| **lifts >= mass).map(|(m, _)| m);
+        free(able.map(|m| (m, steps)).collect())
+    };
+    (0..pieces).map(|_| piece()).collect()
+}
+
+/// As `skilled`, and four of ten wait for an earlier sub-task.
+fn precedence(random: &mut Random, pieces: usize, members: usize) -> Vec<Work> {
+    let mut work = skilled(random, pieces, members);
+    for (i, piece) in work.iter_mut().enumerate().skip(1) {
+        if random.below(10) < 4 {
+            piece.after.push(random.below(i as u64) as usize);
         }
-        if let Some(last) = series.last() {
-            let name = last.label.split(':').next().unwrap_or_default();
-            let _ = writeln!(
-                out,
-                "<text x=\"{:.1}\" y=\"{:.1}\" fill=\"{colour}\">{name}</text>",
-                x(last.pieces) - 30.0,
-                y(last.mean_ms) - 10.0
-            );
-        }
     }
-    out.push_str("</svg>\n");
-    out
+    work
 }

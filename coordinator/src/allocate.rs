@@ -14,7 +14,7 @@ use lamma_planner::{GroundAct, Limits, Outcome, Plan, SearchOptions, plan_with};
 
 use crate::allocation::{AllocateInput, Allocation, AllocationRule, Cut, NoAllocation, PackageSpec};
 use crate::assign::{Work, assign};
-use crate::bound::makespan_lower_bound;
+use crate::bound::JointTask;
 use crate::combine::world_state;
 use crate::parts::{condition_from, independent_parts};
 use crate::problem::member_problem;
@@ -35,27 +35,36 @@ struct Item {
     /// Those it was asked to follow.
     asked: Vec<usize>,
     /// A plan per member that can do it alone.
-    bids: BTreeMap<usize, Vec<GroundAct>>,
+    bids: BTreeMap<usize, Bid>,
     /// The member that the team's plan chose, and what that plan has it do.
-    fallback: Option<(usize, Vec<GroundAct>)>,
+    fallback: Option<(usize, Bid)>,
     /// Whether it brings the sub-task's goal about, and not only what others need.
     finishing: bool,
+}
+
+/// What a member would do, and how long that takes it.
+#[derive(Debug)]
+struct Bid {
+    acts: Vec<GroundAct>,
+    time: u64,
 }
 
 impl Item {
     /// A plan for it, to see where it leads.
     fn example(&self) -> &[GroundAct] {
-        let shortest = self.bids.values().min_by_key(|acts| acts.len());
-        shortest.or(self.fallback.as_ref().map(|(_, acts)| acts)).map_or(&[], Vec::as_slice)
+        let shortest = self.bids.values().min_by_key(|bid| bid.time);
+        shortest.or(self.fallback.as_ref().map(|(_, bid)| bid)).map_or(&[], |bid| &bid.acts)
     }
 }
 
 /// Allocates. Deterministic; the same input gives the same packages.
 pub fn allocate(input: &AllocateInput, cancel: &AtomicBool) -> Result<Allocation, NoAllocation> {
-    let interpreter = Interpreter::new(&input.team.domain, &input.team.objects)
-        .map_err(|e| NoAllocation::GaveUp(e.to_string()))?;
+    let interpreter = input.team.interpreter().map_err(|e| NoAllocation::GaveUp(e.to_string()))?;
     let mut allocator = Allocator { input, interpreter, items: Vec::new(), cancel };
-    if input.cut == Cut::Team {
+    // What is out of reach is not bid for: the team's own way says why.
+    let joint = JointTask::new(&input.team, &input.available, &input.facts, &input.final_goal);
+    let floor = joint.map_or(Some(0), |joint| joint.floor_of(&input.team, &input.facts));
+    if input.cut == Cut::Team || floor.is_none() {
         allocator.take_all_as_team()?;
     } else {
         for subgoal in 0..input.subgoals.len() {
@@ -65,13 +74,12 @@ pub fn allocate(input: &AllocateInput, cancel: &AtomicBool) -> Result<Allocation
     let work: Vec<Work> = allocator.items.iter().map(work).collect();
     let members = assign(&work);
     let packages = packages(&allocator.items, &members);
-    let bound = makespan_lower_bound(&input.team, &input.available, &input.facts, &input.final_goal);
-    Ok(Allocation { packages, lower_bound: f64::from(bound.unwrap_or(0)) })
+    Ok(Allocation { packages, lower_bound: f64::from(floor.unwrap_or(0)) })
 }
 
 fn work(item: &Item) -> Work {
-    let fallback = item.fallback.iter().map(|(member, acts)| (*member, acts.len() as u64));
-    let bids = item.bids.iter().map(|(member, acts)| (*member, acts.len() as u64));
+    let fallback = item.fallback.iter().map(|(member, bid)| (*member, bid.time));
+    let bids = item.bids.iter().map(|(member, bid)| (*member, bid.time));
     // A bid of the member's own replaces the team's plan for it.
     Work { after: item.after.clone(), cost: fallback.chain(bids).collect() }
 }
@@ -125,9 +133,12 @@ impl Allocator<'_> {
         let lasting = self.input.subgoals.iter().filter(|s| s.lasting).map(|s| s.goal.clone());
         let everything = Condition::And(lasting.collect());
         for index in 0..self.input.subgoals.len() {
-            self.plan_as_team(index, &self.input.subgoals[index].goal, &start, true, None)?;
+            let alone = self.plan_as_team(index, &self.input.subgoals[index].goal, &start, true, None);
+            if let Err(proof @ NoAllocation::Infeasible(_)) = alone {
+                return Err(proof);
+            }
         }
-        if self.plan_as_team(0, &everything, &start, true, None).is_err_and(|e| e.is_proof()) {
+        if self.is_out_of_reach(&everything, &start) {
             return Err(NoAllocation::Infeasible(self.excluding(&start)));
         }
         let mut kept: Vec<Condition> = Vec::new();
@@ -152,7 +163,7 @@ impl Allocator<'_> {
         while i < rest.len() {
             let one = rest.remove(i);
             let goal = Condition::And(rest.iter().map(|&s| subgoals[s].goal.clone()).collect());
-            if !self.plan_as_team(0, &goal, start, true, None).is_err_and(|e| e.is_proof()) {
+            if !self.is_out_of_reach(&goal, start) {
                 rest.insert(i, one);
                 i += 1;
             }
@@ -199,7 +210,7 @@ impl Allocator<'_> {
         goal: Condition,
         after: Vec<usize>,
         asked: Vec<usize>,
-        bids: BTreeMap<usize, Vec<GroundAct>>,
+        bids: BTreeMap<usize, Bid>,
     ) {
         self.items.push(Item { subgoal, goal, after, asked, bids, fallback: None, finishing: true });
     }
@@ -223,6 +234,23 @@ impl Allocator<'_> {
         state
     }
 
+    /// The acts with the time they take from that state on.
+    fn bid(&self, state: &WorldState, acts: Vec<GroundAct>) -> Bid {
+        if self.input.team.travel.is_none() {
+            return Bid { time: acts.len() as u64, acts };
+        }
+        let mut state = state.clone();
+        let mut time = 0.0;
+        for act in &acts {
+            if let Ok(action) = self.interpreter.instantiate(act) {
+                time += self.interpreter.duration(&state, &action).unwrap_or(1.0);
+                // Steps of others between them may be missing here.
+                let _ = self.interpreter.apply(&mut state, &action);
+            }
+        }
+        Bid { acts, time: time as u64 }
+    }
+
     /// Who may be given a sub-task.
     fn candidates(&self, subgoal: usize) -> Vec<usize> {
         let advice = &self.input.subgoals[subgoal].advice;
@@ -241,7 +269,7 @@ impl Allocator<'_> {
         subgoal: usize,
         goal: &Condition,
         state: &WorldState,
-    ) -> (BTreeMap<usize, Vec<GroundAct>>, Option<String>) {
+    ) -> (BTreeMap<usize, Bid>, Option<String>) {
         let team = &self.input.team;
         let options = SearchOptions { improvement: Some(IMPROVEMENT), ..SearchOptions::default() };
         let mut bids = BTreeMap::new();
@@ -253,7 +281,7 @@ impl Allocator<'_> {
             let problem = member_problem(team, member, &state.facts, goal);
             match plan_with(&team.members[member].domain, &problem, &options, &self.limits(), self.cancel) {
                 Ok(Outcome::Found(plan)) => {
-                    bids.insert(member, plan.acts);
+                    bids.insert(member, self.bid(state, plan.acts));
                 }
                 Ok(Outcome::Unsolvable(_)) => {}
                 Ok(Outcome::GaveUp(why)) => gave_up = Some(why.to_string()),
@@ -283,10 +311,11 @@ impl Allocator<'_> {
         for segment in segments {
             let handed: Vec<usize> = segment.after.iter().map(|k| base + k).collect();
             let after = union(asked, &handed);
+            let before = self.state_after(&after);
             let bids = if self.input.cut == Cut::Team {
                 BTreeMap::new()
             } else {
-                self.bids(index, &segment.goal, &self.state_after(&after)).0
+                self.bids(index, &segment.goal, &before).0
             };
             self.items.push(Item {
                 subgoal: index,
@@ -294,11 +323,18 @@ impl Allocator<'_> {
                 after,
                 asked: asked.to_vec(),
                 bids,
-                fallback: Some((segment.member, segment.acts)),
+                fallback: Some((segment.member, self.bid(&before, segment.acts))),
                 finishing: segment.finishing,
             });
         }
         Ok(())
+    }
+
+    /// Whether it is proved that all together cannot do it from there.
+    fn is_out_of_reach(&self, goal: &Condition, state: &WorldState) -> bool {
+        let (team, available) = (&self.input.team, &self.input.available);
+        let outcome = team_plan(team, available, &state.facts, &[], goal, &self.limits(), self.cancel);
+        matches!(outcome, Ok(Outcome::Unsolvable(_)))
     }
 
     fn plan_as_team(
@@ -365,7 +401,7 @@ fn packages(items: &[Item], members: &[usize]) -> Vec<PackageSpec> {
             subgoals: vec![item.subgoal],
             after: union(&after, &own),
             asked_after: asked,
-            fallback: fallback.map(|(_, acts)| acts.clone()),
+            fallback: fallback.map(|(_, bid)| bid.acts.clone()),
         });
     }
     packages

@@ -117,9 +117,3 @@ pub enum NoAllocation {
     /// Not found within the limits.
     GaveUp(String),
 }
-
-impl NoAllocation {
-    pub(crate) fn is_proof(&self) -> bool {
-        matches!(self, NoAllocation::Infeasible(_))
-    }
-}

@@ -5,14 +5,15 @@ use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::{Condition, GroundAtom};
 use lamma_planner::heuristic::{Costs, Estimate, Heuristic, LandmarkCut};
-use lamma_planner::{Makespan, MakespanLimits, OperatorId, Plan, Scheduler, Task};
+use lamma_planner::{Makespan, MakespanLimits, Milestone, OperatorId, Plan, Scheduler, Task};
 
 use crate::problem::joint_problem;
 use crate::team::Team;
+use crate::travel_bound::travel_floor;
 
 /// Sets of agents whose work is looked at for a bound: so many, and fewer where there are many operators.
 const SETS: usize = 32;
-const OPERATORS_IN_ALL_SETS: usize = 200_000;
+const OPERATORS_IN_ALL_SETS: usize = 50_000;
 
 /// The task of the whole team as one actor, grounded.
 #[derive(Debug)]
@@ -88,25 +89,33 @@ impl JointTask {
         Some(scheduler.improve(&operators, makespan, floor, limits, cancel))
     }
 
-    /// The shortest schedule of at least `from` (a proved bound) and less than `below` steps, or how far the
-    /// bound could be raised within the limits. `None` if the goal is out of reach.
+    /// [`JointTask::floor`], or [`travel_floor`] if that says more.
+    pub fn floor_of(&self, team: &Team, facts: &BTreeSet<GroundAtom>) -> Option<u32> {
+        let travelled = team.travel.as_ref().and_then(|travel| travel_floor(&self.task, travel, team, facts));
+        Some(self.floor()?.max(travelled.unwrap_or(0)))
+    }
+
+    /// The shortest schedule of at least `from` (a proved bound) and less than `below` steps that keeps the order
+    /// of `milestones`, or how far the bound could be raised within the limits. `None` if the goal is out of reach.
     pub fn shortest(
         &self,
+        milestones: &[Milestone],
         from: u32,
         below: Option<u32>,
         limits: &MakespanLimits,
         cancel: &AtomicBool,
     ) -> Option<Makespan> {
-        Some(Scheduler::new(&self.task, &self.member_of)?.shortest(from, below, limits, cancel))
+        let scheduler = Scheduler::in_order(&self.task, &self.member_of, milestones)?;
+        Some(scheduler.shortest(from, below, limits, cancel))
     }
 }
 
-/// [`JointTask::floor`] of a team in a state; `None` if the goal is out of reach.
+/// [`JointTask::floor_of`] a team in a state; `None` if the goal is out of reach.
 pub fn makespan_lower_bound(
     team: &Team,
     available: &[usize],
     facts: &BTreeSet<GroundAtom>,
     goal: &Condition,
 ) -> Option<u32> {
-    JointTask::new(team, available, facts, goal).ok()?.floor()
+    JointTask::new(team, available, facts, goal).ok()?.floor_of(team, facts)
 }

@@ -42,6 +42,8 @@ pub struct PackageEnd {
 pub struct TimedStep {
     /// Earliest start.
     pub start: f64,
+    /// How long it takes.
+    pub duration: f64,
     /// Which member.
     pub member: usize,
     /// Which of its steps.
@@ -164,7 +166,8 @@ pub(crate) fn team_plan(team: &Team, order: &PartialOrder, ends: Vec<PackageEnd>
             .iter()
             .map(|&(agent, done)| Gate { agent: AgentId(agent as u16), done: StepIndex(done) });
         let index = StepIndex(steps[step.agent].len() as u32);
-        timeline.push(TimedStep { start: starts[i], member: step.agent, index, act: act.clone() });
+        let (start, duration) = (starts[i], order.durations[i]);
+        timeline.push(TimedStep { start, duration, member: step.agent, index, act: act.clone() });
         steps[step.agent].push(Step { act, gates: gates.collect() });
     }
     timeline.sort_by(|a, b| a.start.total_cmp(&b.start).then(a.member.cmp(&b.member)));

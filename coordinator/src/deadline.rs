@@ -23,8 +23,9 @@ impl Default for Patience {
     }
 }
 
-/// How long the arbiter may take to open an epoch.
-const GRANT_MS: u64 = 10_000;
+/// How long the arbiter may take to open an epoch. One whose process has died is told of by the supervisor, at once:
+/// this is for one that hangs, and a host that is busy with something else must not look like that.
+const GRANT_MS: u64 = 30_000;
 /// How long a robot may plan one batch.
 const PLAN_MS: u64 = 60_000;
 
@@ -43,6 +44,7 @@ impl Coordinator {
             | Phase::Allocating(_)
             | Phase::Combining(..)
             | Phase::PlanningJointly(_)
+            | Phase::Writing(..)
             | Phase::Finished => None,
         }
     }
@@ -82,6 +84,7 @@ impl Coordinator {
             | Phase::Allocating(_)
             | Phase::Combining(..)
             | Phase::PlanningJointly(_)
+            | Phase::Writing(..)
             | Phase::Finished => return,
         };
         if late.is_empty() {

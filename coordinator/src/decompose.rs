@@ -10,11 +10,16 @@ use std::time::Duration;
 use lamma_domains::condition::condition as goal;
 use lamma_domains::goal::{Content, GoalEntry};
 use lamma_domains::view::views;
-use lamma_domains::world::WorldSetup;
-use lamma_lm::{Answer, Clarification, Decomposition, LanguageModel, Request, RobotView, Subtask};
+use lamma_domains::world::{Thing, WorldSetup};
+use lamma_lm::{
+    Answer, Clarification, Decomposition, LanguageModel, LmError, Request, RobotView, Script, ScriptRequest,
+    Subtask,
+};
 use lamma_pddl::ast::GroundAtom;
 
+use crate::bans::Ban;
 use crate::understand::{GoalGroup, GoalItem, ScoreGoal, Subgoal, Understanding, Understood};
+use crate::written::{NotWritten, WriteInput};
 
 /// What the person wants and how it is to be read.
 #[derive(Clone, Debug)]
@@ -39,6 +44,9 @@ pub fn decompose(
     let decomposition = match model.decompose(&request, cancel) {
         Ok(Answer::Understood(decomposition)) => decomposition,
         Ok(Answer::Clarify(clarification)) => return Understood::Ask(clarification),
+        Err(error @ (LmError::Unusable { .. } | LmError::Deadline(_))) => {
+            return Understood::NoAnswer(error.to_string());
+        }
         Err(error) => return Understood::Failed(error.to_string()),
     };
     match ground(world, &decomposition) {
@@ -52,6 +60,23 @@ pub fn decompose(
             ..Clarification::default()
         }),
     }
+}
+
+/// Has the model write the plan itself.
+pub fn write(
+    model: &mut dyn LanguageModel,
+    world: &WorldSetup,
+    input: &WriteInput,
+    instruction: &Instruction,
+    check: &dyn Fn(&Script) -> Vec<String>,
+    cancel: &AtomicBool,
+) -> Result<Script, NotWritten> {
+    let asked =
+        ScriptRequest { request: request(world, &input.facts, instruction), parts: input.parts.clone() };
+    model.write(&asked, check, cancel).map_err(|error| match error {
+        LmError::Unusable { .. } | LmError::Deadline(_) => NotWritten::Unusable(error.to_string()),
+        other => NotWritten::Failed(other.to_string()),
+    })
 }
 
 fn nothing_to_do(instruction: &Instruction, decomposition: &Decomposition) -> Clarification {
@@ -104,7 +129,28 @@ pub fn ground(world: &WorldSetup, decomposition: &Decomposition) -> Result<Under
         goal: if lasting.is_empty() { ScoreGoal::default() } else { score_goal(world, &lasting)? },
         subgoals,
         assumptions: decomposition.assumptions.clone(),
+        bans: decomposition.bans.iter().flat_map(|ban| bans(world, ban)).collect(),
     })
+}
+
+/// A ban on a type or an object, for each object it is about.
+fn bans(world: &WorldSetup, ban: &lamma_lm::Ban) -> Vec<Ban> {
+    let named = |said: &str| -> Vec<String> {
+        let is_meant = |thing: &&Thing| thing.name.eq_ignore_ascii_case(said) || thing.kind == said;
+        world.things.iter().filter(is_meant).map(|thing| thing.name.clone()).collect()
+    };
+    let items: Vec<Option<String>> = match &ban.item {
+        Some(item) => named(item).into_iter().map(Some).collect(),
+        None => vec![None],
+    };
+    let of = |object: String| {
+        items.iter().map(move |item| Ban {
+            skill: ban.skill.clone(),
+            object: object.clone(),
+            item: item.clone(),
+        })
+    };
+    named(&ban.object).into_iter().flat_map(of).collect()
 }
 
 /// The goal of a sub-task with what earlier ones demand of the same objects: "wash the fork, put it in the
@@ -152,5 +198,5 @@ pub fn given(world: &WorldSetup, entries: &[GoalEntry]) -> Result<Understanding,
         lasting: true,
         advice: Vec::new(),
     });
-    Ok(Understanding { subgoals: subgoals.collect(), goal, assumptions: Vec::new() })
+    Ok(Understanding { subgoals: subgoals.collect(), goal, assumptions: Vec::new(), bans: Vec::new() })
 }

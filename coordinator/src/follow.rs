@@ -12,7 +12,8 @@ use crate::machine::Coordinator;
 use crate::phase::{Following, Phase, Round};
 use crate::problem::member_problem;
 use crate::result::OutcomeKind;
-use crate::shorten::Shorten;
+use crate::shorten::{Shorten, Wanted};
+use crate::understand::Subgoal;
 
 /// Packages that may be planned again because they did not fit after the others.
 const MAX_CONFLICTS: u32 = 12;
@@ -136,14 +137,15 @@ impl Coordinator {
         self.enter(Phase::Combining(job, round));
     }
 
-    /// Steps may be chosen anew only where the end is all that was asked for.
+    /// Steps may be chosen anew where nothing was asked for that is over before the end.
     fn shorten(&self, round: &Round) -> Shorten {
         let subgoals = self.understanding.as_ref().map_or(&[][..], |u| &u.subgoals);
-        let free = subgoals.iter().all(|s| s.lasting && s.after.is_empty());
+        let lasting = self.config.method.divide && subgoals.iter().all(|s| s.lasting);
+        let wanted = |s: &Subgoal| Wanted { goal: s.goal.clone(), after: s.after.clone() };
         Shorten {
             available: self.roster.available(),
             bound: round.allocation.lower_bound,
-            subgoals: free.then(|| subgoals.iter().map(|s| s.goal.clone()).collect()),
+            wanted: lasting.then(|| subgoals.iter().map(wanted).collect()),
             limits: self.config.makespan.clone(),
         }
     }
@@ -191,6 +193,11 @@ impl Coordinator {
             .filter_map(|a| self.roster.report(a).map(|r| (a, r)))
             .filter(|(_, r)| r.epoch == self.epoch)
             .find_map(|(a, r)| r.refused.clone().map(|refusal| (a, refusal)));
+        if self.is_written() && !done {
+            let skipped = self.skipped(&following);
+            self.put_phase(Phase::Executing(following));
+            return self.skip(skipped);
+        }
         self.put_phase(Phase::Executing(following));
         if done {
             return self.executed();
@@ -230,7 +237,7 @@ impl Coordinator {
     fn executed(&mut self) {
         let Some(facts) = self.view.state() else { return };
         let reached = self.reaches(&world_state(&facts), &self.final_goal());
-        if reached {
+        if reached || self.is_written() {
             return self.finish(OutcomeKind::Success, None);
         }
         self.fault("all steps are done and the goal does not hold: the world has changed meanwhile");

@@ -7,6 +7,7 @@ use lamma_domains::robots::{SKILLS, actions_of};
 use lamma_domains::world::WorldSetup;
 use lamma_pddl::Name;
 use lamma_pddl::ast::GroundAtom;
+use lamma_planner::travel::Travel;
 
 use crate::team::{Member, Relaxation, Team};
 
@@ -21,7 +22,21 @@ pub fn team(world: &WorldSetup) -> Team {
         relaxations: too_heavy(world).into_iter().chain([hands(world)]).collect(),
         numbers: Vec::new(),
         skill_facts: skill_facts(world),
+        travel: travel(world).map(Arc::new),
     }
+}
+
+/// How long going takes in the household, where it takes its time.
+pub fn travel(world: &WorldSetup) -> Option<Travel> {
+    let ways = world.ways.as_ref()?;
+    Some(Travel {
+        action: Name::new("GoToObject"),
+        at: Name::new("at"),
+        inside: Name::new("in"),
+        place_of: ways.place_of.iter().map(|(thing, place)| (Name::new(thing), *place)).collect(),
+        elsewhere: ways.middle,
+        steps: ways.steps.clone(),
+    })
 }
 
 /// The world's own record of who has which skill, for every skill: `(has robot1 SliceObject)`.

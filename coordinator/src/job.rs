@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use lamma_lm::Script;
 use lamma_pddl::ast::{Condition, GroundAtom};
-use lamma_planner::interpreter::Interpreter;
 
 use crate::allocate::allocate;
 use crate::allocation::{AllocateInput, Allocation, NoAllocation, PackageSpec};
@@ -15,6 +15,7 @@ use crate::merge::Merger;
 use crate::shorten::{Combined, Shorten, shorten};
 use crate::team::Team;
 use crate::understand::Understood;
+use crate::written::{NotWritten, WriteInput, WrittenPlan};
 
 /// What the coordinator hands out.
 #[derive(Clone, Debug)]
@@ -30,6 +31,8 @@ pub enum CoordinatorJob {
     Combine(Box<CombineInput>),
     /// See [`plan_jointly`].
     PlanJointly(Box<JointInput>),
+    /// Have the language model write the plan. Done by whoever owns the model, too.
+    Write(Box<WriteInput>),
 }
 
 /// Input of [`CoordinatorJob::Combine`].
@@ -58,23 +61,39 @@ pub enum CoordinatorDone {
     Combined(Result<Box<Combined>, String>),
     /// Of [`CoordinatorJob::PlanJointly`].
     PlannedJointly(Result<Box<JointPlan>, NoAllocation>),
+    /// Of [`CoordinatorJob::Write`].
+    Written(Result<Box<WrittenPlan>, NotWritten>),
+}
+
+/// Who owns the language model.
+pub trait Author {
+    /// What the instruction means in a world where these facts hold.
+    fn understand(&mut self, facts: BTreeSet<GroundAtom>, cancel: &AtomicBool) -> Understood;
+
+    /// A plan of the model's own. What `check` finds wrong goes back to the model.
+    fn write(
+        &mut self,
+        input: &WriteInput,
+        check: &dyn Fn(&Script) -> Vec<String>,
+        cancel: &AtomicBool,
+    ) -> Result<Script, NotWritten>;
 }
 
 impl CoordinatorJob {
-    /// Does the job; `understand` answers for the language model.
-    pub fn run(
-        self,
-        understand: impl FnOnce(BTreeSet<GroundAtom>, &AtomicBool) -> Understood,
-        cancel: &AtomicBool,
-    ) -> CoordinatorDone {
+    /// Does the job; `author` answers for the language model.
+    pub fn run(self, author: &mut dyn Author, cancel: &AtomicBool) -> CoordinatorDone {
         match self {
             CoordinatorJob::Understand { facts } => {
-                CoordinatorDone::Understood(Box::new(understand(facts, cancel)))
+                CoordinatorDone::Understood(Box::new(author.understand(facts, cancel)))
             }
             CoordinatorJob::Allocate(input) => CoordinatorDone::Allocated(allocate(&input, cancel)),
             CoordinatorJob::Combine(input) => CoordinatorDone::Combined(input.run(cancel)),
             CoordinatorJob::PlanJointly(input) => {
                 CoordinatorDone::PlannedJointly(plan_jointly(&input, cancel).map(Box::new))
+            }
+            CoordinatorJob::Write(input) => {
+                let plan = input.run(|input, check| author.write(input, check, cancel));
+                CoordinatorDone::Written(plan.map(Box::new))
             }
         }
     }
@@ -82,8 +101,7 @@ impl CoordinatorJob {
 
 impl CombineInput {
     fn run(&self, cancel: &AtomicBool) -> Result<Box<Combined>, String> {
-        let interpreter =
-            Interpreter::new(&self.team.domain, &self.team.objects).map_err(|e| e.to_string())?;
+        let interpreter = self.team.interpreter().map_err(|e| e.to_string())?;
         let plan = combine(&self.team, &interpreter, &self.merger, &self.packages, &self.goal, cancel)?;
         let (team, merger, how) = (&self.team, &self.merger, &self.shorten);
         Ok(Box::new(shorten(team, &interpreter, merger, plan, &self.goal, how, cancel)))

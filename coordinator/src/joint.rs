@@ -27,7 +27,7 @@ const REASON_EXPANSIONS: u64 = 20_000;
 
 /// What may be spent on a shorter schedule beyond the limits for each operator of the task, and at most: what it
 /// takes to look at a part of a schedule grows with the operators.
-const WORK_PER_OPERATOR: u64 = 1_000;
+const WORK_PER_OPERATOR: u64 = 2_000;
 const MOST_WORK: u64 = 20_000_000;
 
 /// What there is to plan.
@@ -65,16 +65,17 @@ pub fn plan_jointly(input: &JointInput, cancel: &AtomicBool) -> Result<JointPlan
     let joint = JointTask::new(team, &input.available, &input.facts, &input.goal).map_err(|e| gave_up(&e))?;
     let countdown = Countdown::from(Duration::from_millis(input.time_ms));
     let plan = search(input, &joint.task, countdown, cancel)?;
-    let interpreter = Interpreter::new(&team.domain, &team.objects).map_err(|e| gave_up(&e))?;
+    let interpreter = team.interpreter().map_err(|e| gave_up(&e))?;
     let order = explain(input, &interpreter, &plan).map_err(|why| gave_up(&why))?;
     let limits = within(&input.makespan, joint.task.operators.len(), countdown);
     let (order, bound) = improve(input, &interpreter, &joint, &plan, order, &limits, cancel);
     Ok(handed_out(input, &interpreter, &order, f64::from(bound)))
 }
 
-/// The limits for a task of so many operators, and no longer than the whole may take.
+/// The limits for a task of so many operators, and no longer than half of what is left: the plan is still to be
+/// carried out.
 fn within(limits: &MakespanLimits, operators: usize, countdown: Countdown) -> MakespanLimits {
-    let time = [limits.time, countdown.left()].into_iter().flatten().min();
+    let time = [limits.time, countdown.left().map(|left| left / 2)].into_iter().flatten().min();
     let work = limits.work.saturating_add((operators as u64 * WORK_PER_OPERATOR).min(MOST_WORK));
     MakespanLimits { time, work, ..limits.clone() }
 }

@@ -10,12 +10,13 @@ use std::sync::Arc;
 use lamma_planner::MakespanLimits;
 use lamma_planner::interpreter::Interpreter;
 use lamma_protocol::message::{Directive, Event, Message};
-use lamma_protocol::{AgentId, Epoch, Input, Machine, Output, Repeat, Revision, Tick, Topic};
+use lamma_protocol::{AgentId, Epoch, Input, Machine, Output, Revision, SaidToEach, Tick, Topic};
 
 use crate::allocation::{Allocation, AllocationRule, Cut};
 use crate::combine::TeamPlan;
 use crate::deadline::Patience;
 use crate::job::{CoordinatorDone, CoordinatorJob};
+use crate::method::Method;
 use crate::mission::Mission;
 use crate::phase::Phase;
 use crate::result::{ActionResult, FaultResult};
@@ -24,6 +25,7 @@ use crate::stopwatch::Stopwatch;
 use crate::team::Team;
 use crate::understand::{ScoreGoal, Understanding};
 use crate::world_view::WorldView;
+use crate::written::Written;
 
 /// What a coordinator is born with.
 #[derive(Clone, Debug)]
@@ -34,9 +36,11 @@ pub struct CoordinatorConfig {
     pub mission: Mission,
     /// What the outcome is judged by, when it is not what was understood (a benchmark's own goal).
     pub score: Option<ScoreGoal>,
-    /// The best makespan and number of steps known for the task, for Eff and RU. Without it the first
-    /// plan is the reference.
-    pub reference: Option<(f64, usize)>,
+    /// The best makespan known for the task and the robot-steps it needs, for Eff and RU. Without it the
+    /// first plan is the reference.
+    pub reference: Option<(f64, f64)>,
+    /// The way from the instruction to a plan.
+    pub method: Method,
     /// Who decides which robot gets a sub-task.
     pub rule: AllocationRule,
     /// Stop when the plan is combined.
@@ -63,7 +67,7 @@ pub struct Coordinator {
     pub(crate) understanding: Option<Understanding>,
     pub(crate) allocation: Option<Allocation>,
     pub(crate) lower_bound: Option<f64>,
-    pub(crate) first_plan: Option<(f64, usize)>,
+    pub(crate) first_plan: Option<(f64, f64)>,
     pub(crate) history: Vec<ActionResult>,
     pub(crate) faults: Vec<FaultResult>,
     pub(crate) recoveries: Vec<FaultResult>,
@@ -77,6 +81,8 @@ pub struct Coordinator {
     pub(crate) reached_on_the_way: BTreeSet<usize>,
     pub(crate) excluded: BTreeSet<(usize, usize)>,
     pub(crate) cut: Cut,
+    /// What a model has written and is still to be done.
+    pub(crate) written: Option<Written>,
     pub(crate) replans: u32,
     pub(crate) next_job: u64,
     pub(crate) now: Tick,
@@ -84,24 +90,31 @@ pub struct Coordinator {
     pub(crate) events: VecDeque<Event>,
     pub(crate) events_dropped: u64,
     pub(crate) result: Option<String>,
-    pub(crate) directives: Vec<Option<(Directive, Repeat)>>,
+    pub(crate) directives: SaidToEach<Directive>,
     pub(crate) repeat_at: Tick,
     pub(crate) outputs: VecDeque<Output<CoordinatorJob>>,
     pub(crate) untold: bool,
 }
 
+impl CoordinatorConfig {
+    /// What is known to be wanted from the start.
+    fn understanding(&self) -> Option<Understanding> {
+        let given = self.mission.understanding();
+        if self.method.divide { given } else { given.map(Understanding::undivided) }
+    }
+}
+
 impl Coordinator {
     /// A coordinator that waits for its team. Errors if the team's domain does not make sense.
     pub fn new(config: CoordinatorConfig) -> Result<Self, String> {
-        let interpreter =
-            Interpreter::new(&config.team.domain, &config.team.objects).map_err(|e| e.to_string())?;
+        let interpreter = config.team.interpreter().map_err(|e| e.to_string())?;
         let members = config.team.members.len();
         Ok(Coordinator {
             interpreter,
             roster: Roster::new(members),
             view: WorldView::default(),
             phase: Phase::Joining,
-            understanding: config.mission.understanding(),
+            understanding: config.understanding(),
             allocation: None,
             lower_bound: None,
             first_plan: None,
@@ -115,7 +128,8 @@ impl Coordinator {
             closing: None,
             reached_on_the_way: BTreeSet::new(),
             excluded: BTreeSet::new(),
-            cut: Cut::default(),
+            cut: if config.method.divide { Cut::Parts } else { Cut::Whole },
+            written: None,
             replans: 0,
             next_job: 0,
             now: Tick(0),
@@ -123,7 +137,7 @@ impl Coordinator {
             events: VecDeque::new(),
             events_dropped: 0,
             result: None,
-            directives: vec![None; members],
+            directives: SaidToEach::nothing(members),
             repeat_at: Tick(0),
             outputs: VecDeque::new(),
             untold: true,

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use lamma_pddl::ast::{Condition, Domain, Init};
 use lamma_pddl::multi_agent::{Part, TeamTask, union};
 use lamma_pddl::{Name, Source, parse_domain, parse_problem};
-use lamma_planner::interpreter::Interpreter;
 use lamma_protocol::AgentId;
 use lamma_protocol::message::{EventKind, Share};
 
@@ -14,6 +13,7 @@ use crate::costs::{changes_numbers, compares_numbers, without_costs};
 use crate::job::CoordinatorJob;
 use crate::joint::{JointInput, JointPlan};
 use crate::machine::Coordinator;
+use crate::method::Steps;
 use crate::phase::Phase;
 use crate::result::OutcomeKind;
 use crate::team::{Member, Team};
@@ -73,6 +73,7 @@ impl Understanding {
             subgoals: vec![subgoal],
             goal: ScoreGoal { groups: conjuncts.into_iter().map(group).collect() },
             assumptions: Vec::new(),
+            bans: Vec::new(),
         }
     }
 }
@@ -102,7 +103,7 @@ impl Coordinator {
         let task = union(&parts).map_err(|e| e.to_string())?;
         let names: Vec<Name> = self.config.team.members.iter().map(|member| member.name.clone()).collect();
         let team = Team::of_task(&task, &names);
-        self.interpreter = Interpreter::new(&team.domain, &team.objects).map_err(|e| e.to_string())?;
+        self.interpreter = team.interpreter().map_err(|e| e.to_string())?;
         self.config.team = Arc::new(team);
         self.understanding = Some(Understanding::of_goal(&task.goal));
         Ok(())
@@ -111,6 +112,9 @@ impl Coordinator {
     /// What is wanted is known: to the plan, on the mission's way.
     pub(crate) fn plan_for_team(&mut self) {
         match self.config.mission {
+            Mission::Divide(_) if self.config.method.steps == Steps::WrittenForAdvice => {
+                self.write_as_advised();
+            }
             Mission::Divide(_) => self.allocate(),
             Mission::Joint(_) | Mission::JointAsTold => self.plan_jointly(),
         }
@@ -184,6 +188,7 @@ impl Team {
             relaxations: Vec::new(),
             numbers: Vec::new(),
             skill_facts: Default::default(),
+            travel: None,
         }
     }
 
@@ -202,6 +207,7 @@ impl Team {
             relaxations: Vec::new(),
             numbers: task.init.iter().filter(|i| matches!(i, Init::Value(..))).cloned().collect(),
             skill_facts: Default::default(),
+            travel: None,
             domain: Arc::new(domain),
         }
     }

@@ -26,6 +26,8 @@ pub(crate) enum Phase {
     Combining(JobId, Box<Round>),
     /// The whole team is planned for at once.
     PlanningJointly(JobId),
+    /// The language model writes the plan.
+    Writing(JobId, Option<Allocation>),
     /// Robots act.
     Executing(Box<Following>),
     /// The outcome is out.
@@ -42,7 +44,7 @@ impl Phase {
             Phase::Allocating(_) => "allocating",
             Phase::Planning(_) => "planning",
             Phase::Combining(..) => "combining",
-            Phase::PlanningJointly(_) => "planning",
+            Phase::PlanningJointly(_) | Phase::Writing(..) => "planning",
             Phase::Executing(_) => "executing",
             Phase::Finished => "finished",
         }

@@ -5,9 +5,10 @@ use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::Name;
 use lamma_pddl::ast::{Condition, GroundAtom};
-use lamma_planner::Limits;
-use lamma_planner::Outcome;
+use lamma_planner::interpreter::Interpreter;
+use lamma_planner::{Limits, Outcome, Plan};
 
+use crate::combine::world_state;
 use crate::split::team_plan;
 use crate::team::{Relaxation, Team};
 
@@ -22,7 +23,8 @@ pub(crate) struct Obstacles<'a> {
 
 /// What stands between the team and the goal: the skills nobody has and the obstacles the team knows of.
 /// Each is removed in thought; a smallest set (by leaving out one after the other) without which the goal
-/// stays out of reach is the reason. `None` if the goal is out of reach even without any of them.
+/// stays out of reach is the reason. `None` if the goal is out of reach even without any of them. That it is with
+/// all of them is known.
 pub(crate) fn why_infeasible(
     obstacles: Obstacles<'_>,
     facts: &BTreeSet<GroundAtom>,
@@ -37,23 +39,57 @@ pub(crate) fn why_infeasible(
         kept: Vec::new(),
     });
     let mut removed: Vec<Relaxation> = skills.chain(team.relaxations.iter().cloned()).collect();
-    let reachable = |removed: &[Relaxation]| {
-        let extra: Vec<GroundAtom> = removed.iter().flat_map(|r| r.facts.clone()).collect();
-        let kept: Vec<Name> = removed.iter().flat_map(|r| r.kept.clone()).collect();
-        let team = team.keeping(&kept);
-        let outcome = team_plan(&team, available, facts, &extra, goal, limits, cancel);
-        matches!(outcome, Ok(Outcome::Found(_)))
-    };
-    if removed.is_empty() || !reachable(&removed) {
+    if removed.is_empty() {
         return None;
     }
+    let plan_without = |removed: &[Relaxation]| {
+        let (team, extra) = relaxed(team, removed);
+        match team_plan(&team, available, facts, &extra, goal, limits, cancel) {
+            Ok(Outcome::Found(plan)) => Some(plan),
+            _ => None,
+        }
+    };
+    let mut plan = plan_without(&removed)?;
     let mut i = 0;
-    while i < removed.len() {
+    while i < removed.len() && removed.len() > 1 {
         let one = removed.remove(i);
-        if !reachable(&removed) {
-            removed.insert(i, one);
-            i += 1;
+        // Most obstacles have nothing to do with it: the plan that is known goes through with them in place.
+        if !goes_through(obstacles, &removed, facts, goal, &plan) {
+            match plan_without(&removed) {
+                Some(another) => plan = another,
+                None => {
+                    removed.insert(i, one);
+                    i += 1;
+                }
+            }
         }
     }
     Some(removed.into_iter().map(|r| r.reason).collect::<Vec<_>>().join("; "))
+}
+
+/// The team without these obstacles, and the facts that are then so.
+fn relaxed(team: &Team, removed: &[Relaxation]) -> (Team, Vec<GroundAtom>) {
+    let kept: Vec<Name> = removed.iter().flat_map(|r| r.kept.clone()).collect();
+    (team.keeping(&kept), removed.iter().flat_map(|r| r.facts.clone()).collect())
+}
+
+/// Whether the team could carry this plan out if these obstacles were not there.
+fn goes_through(
+    obstacles: Obstacles<'_>,
+    removed: &[Relaxation],
+    facts: &BTreeSet<GroundAtom>,
+    goal: &Condition,
+    plan: &Plan,
+) -> bool {
+    let (team, extra) = relaxed(obstacles.team, removed);
+    let (domain, skills) = team.joint(obstacles.available);
+    let Ok(interpreter) = Interpreter::new(&domain, &team.objects) else { return false };
+    let Ok(goal) = interpreter.ground_condition(goal) else { return false };
+    let mut state = world_state(facts);
+    state.facts.extend(skills.into_iter().chain(extra));
+    let possible = plan.acts.iter().all(|act| {
+        let action = interpreter.instantiate(act);
+        action.is_ok_and(|action| interpreter.apply(&mut state, &action).is_ok())
+    });
+    possible && interpreter.holds(&state, &goal)
 }

@@ -5,7 +5,7 @@ use lamma_protocol::AgentId;
 
 use crate::machine::Coordinator;
 use crate::result::{
-    GoalResult, Metrics, OutcomeKind, PlanResult, RunResult, SubtaskResult, UnderstoodResult,
+    ActionResult, GoalResult, Metrics, OutcomeKind, PlanResult, RunResult, SubtaskResult, UnderstoodResult,
 };
 use crate::understand::ScoreGoal;
 
@@ -60,7 +60,11 @@ impl Coordinator {
         let (requested, applied, makespan) =
             self.view.frame().map_or((0, 0, 0), |f| (f.requested(), f.applied(), f.makespan()));
         let makespan = if self.config.solve_only { self.plan_makespan() } else { makespan as f64 };
-        let used = if self.config.solve_only { self.history.len() as f64 } else { applied as f64 };
+        let timed = self.config.team.travel.is_some();
+        let used = match self.config.solve_only || timed {
+            true => self.history.iter().map(|action| action.duration).sum(),
+            false => applied as f64,
+        };
         let reference = self.config.reference.or(self.first_plan);
         let share = |best: f64, used: f64| if used > 0.0 { best / used } else { 1.0 };
         Metrics {
@@ -71,13 +75,13 @@ impl Coordinator {
                 goal.reached as f64 / goal.total as f64
             },
             exe: if requested == 0 { 1.0 } else { applied as f64 / requested as f64 },
-            ru: reference.filter(|_| success).map(|(_, steps)| share(steps as f64, used)),
+            ru: reference.filter(|_| success).map(|(_, busy)| share(busy, used)),
             eff: reference.filter(|_| success).map(|(best, _)| share(best, makespan)),
         }
     }
 
     fn plan_makespan(&self) -> f64 {
-        self.history.iter().map(|a| a.start + 1.0).fold(0.0, f64::max)
+        self.history.iter().map(ActionResult::end).fold(0.0, f64::max)
     }
 
     fn plan_result(&self) -> PlanResult {

@@ -115,12 +115,31 @@ pub struct PlanResult {
 pub struct ActionResult {
     /// When, in steps.
     pub start: f64,
+    /// For how long, in steps.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub duration: f64,
     /// Who.
     pub robot: String,
     /// What.
     pub action: String,
     /// With what: the acting robot is left out.
     pub args: Vec<String>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_one(duration: &f64) -> bool {
+    *duration == 1.0
+}
+
+impl ActionResult {
+    /// When it is done.
+    pub fn end(&self) -> f64 {
+        self.start + self.duration
+    }
 }
 
 /// Milliseconds per phase.

@@ -1,7 +1,7 @@
 //! What the coordinator says: events for the person, grants, directives, the outcome.
 
 use lamma_protocol::message::{Directive, Event, EventKind, Grant, Message, Order, Outcome};
-use lamma_protocol::{AgentId, Epoch, JobId, Output, Repeat, Topic};
+use lamma_protocol::{AgentId, Epoch, JobId, Output, Topic};
 
 use crate::job::CoordinatorJob;
 use crate::machine::Coordinator;
@@ -54,13 +54,10 @@ impl Coordinator {
 
     pub(crate) fn direct(&mut self, agent: AgentId, order: Order) {
         let directive = Directive { epoch: self.epoch, order };
-        let known = self.directives[agent.index()].as_ref();
-        if known.is_some_and(|(known, _)| *known == directive) {
+        if self.directives.last(agent) == Some(&directive) {
             return;
         }
-        let mut repeat = Repeat::default();
-        repeat.news(self.now);
-        self.directives[agent.index()] = Some((directive.clone(), repeat));
+        self.directives.news(agent, directive.clone(), self.now);
         self.outputs.push_back(Output::Publish(Topic::Directive(agent), Message::Directive(directive)));
     }
 
@@ -76,14 +73,9 @@ impl Coordinator {
         if self.epoch > Epoch(0) {
             self.say_grant();
         }
-        for (agent, said) in (0..).map(AgentId).zip(&mut self.directives) {
-            if let Some((directive, repeat)) = said
-                && repeat.take(self.now)
-            {
-                let again = Message::Directive(directive.clone());
-                self.outputs.push_back(Output::Publish(Topic::Directive(agent), again));
-            }
-        }
+        let due = self.directives.due(self.now);
+        self.outputs
+            .extend(due.map(|(agent, d)| Output::Publish(Topic::Directive(agent), Message::Directive(d))));
         self.say_outcome();
     }
 }

@@ -41,7 +41,7 @@ impl Stopwatch {
             Phase::Joining | Phase::Granting => Slot::Start,
             Phase::Decomposing(_) => Slot::Decompose,
             Phase::Allocating(_) => Slot::Allocate,
-            Phase::Planning(_) | Phase::PlanningJointly(_) => Slot::Plan,
+            Phase::Planning(_) | Phase::PlanningJointly(_) | Phase::Writing(..) => Slot::Plan,
             Phase::Combining(..) => Slot::Combine,
             Phase::Executing(_) | Phase::Finished => Slot::Execute,
         };

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use lamma_pddl::Name;
 use lamma_pddl::ast::{Atom, Condition, Domain, Effect, GroundAtom, Init, Signature, Term, TypedName};
+use lamma_planner::interpreter::{InterpretError, Interpreter};
+use lamma_planner::travel::Travel;
 
 /// A robot of the team.
 #[derive(Clone, Debug)]
@@ -49,6 +51,8 @@ pub struct Team {
     /// Facts by which the world itself says that a member has a skill, per action; none where the members'
     /// domains alone say so.
     pub skill_facts: BTreeMap<Name, Vec<GroundAtom>>,
+    /// How long going takes, where it takes its time.
+    pub travel: Option<Arc<Travel>>,
 }
 
 fn skill_predicate(action: &Name) -> Name {
@@ -56,6 +60,11 @@ fn skill_predicate(action: &Name) -> Name {
 }
 
 impl Team {
+    /// The plain semantics of what the team can do.
+    pub fn interpreter(&self) -> Result<Interpreter, InterpretError> {
+        Ok(Interpreter::new(&self.domain, &self.objects)?.with_travel(self.travel.clone()))
+    }
+
     /// The index of the member with that name.
     pub fn member(&self, name: &Name) -> Option<usize> {
         self.members.iter().position(|m| m.name == *name)

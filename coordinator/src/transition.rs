@@ -8,10 +8,12 @@ use lamma_protocol::message::{Command, EventKind, Order, Report};
 use lamma_protocol::{AgentId, Epoch, JobId, Output, Revision, StepIndex};
 
 use crate::allocation::{AllocateInput, Allocation, NoAllocation};
+use crate::bans::{Ban, as_planned};
 use crate::combine::{TeamPlan, world_state};
 use crate::job::{CoordinatorDone, CoordinatorJob};
 use crate::machine::Coordinator;
 use crate::merge::Merger;
+use crate::method::Steps;
 use crate::phase::{Following, Phase, Round};
 use crate::result::{ActionResult, OutcomeKind};
 use crate::shorten::Combined;
@@ -34,7 +36,8 @@ impl Coordinator {
         if let Phase::Decomposing(job)
         | Phase::Allocating(job)
         | Phase::Combining(job, _)
-        | Phase::PlanningJointly(job) = &self.phase
+        | Phase::PlanningJointly(job)
+        | Phase::Writing(job, _) = &self.phase
         {
             self.outputs.push_back(Output::Cancel(*job));
         }
@@ -93,24 +96,25 @@ impl Coordinator {
         self.enter(Phase::Finished);
         let result = self.build_result(kind, reason, ask);
         self.result = serde_json::to_string(&result).ok();
-        for agent in (0..self.directives.len() as u16).map(AgentId) {
+        for agent in (0..self.directives.agents() as u16).map(AgentId) {
             self.direct(agent, Order::Leave);
         }
         self.untold = true;
     }
 
     pub(crate) fn progress(&self) -> Vec<StepIndex> {
-        (0..self.directives.len() as u16).map(|a| self.view.progress(AgentId(a))).collect()
+        (0..self.directives.agents() as u16).map(|a| self.view.progress(AgentId(a))).collect()
     }
 
     /// Steps that were applied go into the history, later than everything there.
     pub(crate) fn record(&mut self, plan: &TeamPlan, done: &[StepIndex]) {
         self.note_reached_on_the_way(plan, done);
-        let base = self.history.iter().map(|a| a.start + 1.0).fold(0.0, f64::max);
+        let base = self.history.iter().map(ActionResult::end).fold(0.0, f64::max);
         for step in plan.timeline.iter().filter(|s| s.index < done[s.member]) {
             let robot = self.config.team.members[step.member].name.to_string();
             self.history.push(ActionResult {
                 start: base + step.start,
+                duration: step.duration,
                 action: own_name(&step.act.action, &robot).to_string(),
                 args: step.act.args.iter().skip(1).map(|a| own_name(a, &robot).to_string()).collect(),
                 robot,
@@ -143,6 +147,7 @@ impl Coordinator {
                 | Phase::Allocating(_)
                 | Phase::Combining(..)
                 | Phase::PlanningJointly(_)
+                | Phase::Writing(..)
                 | Phase::Finished => return,
             }
             if before == std::mem::discriminant(&self.phase) && epoch == self.epoch {
@@ -172,7 +177,7 @@ impl Coordinator {
     pub(crate) fn nobody_left(&mut self) -> bool {
         let nobody = self.roster.available().is_empty();
         if nobody {
-            let why = (0..self.directives.len() as u16)
+            let why = (0..self.directives.agents() as u16)
                 .map(AgentId)
                 .find_map(|a| self.roster.lost_reason(a).map(|r| format!("{} {r}", self.name_of(a))))
                 .unwrap_or_default();
@@ -186,13 +191,22 @@ impl Coordinator {
             return;
         }
         if let Some(plan) = self.closing.take() {
-            let done: Vec<StepIndex> = (0..self.directives.len() as u16)
+            let done: Vec<StepIndex> = (0..self.directives.agents() as u16)
                 .map(|a| self.view.frame().map_or(StepIndex(0), |f| f.closed(AgentId(a))))
                 .collect();
             self.record(&plan, &done);
+            if let Some(written) = &mut self.written {
+                written.advance(&done);
+            }
         }
         if self.roster.lost() != self.granted_lost {
             return self.begin_epoch();
+        }
+        if self.written.is_some() {
+            return self.carry_on_written();
+        }
+        if self.config.method.steps == Steps::Written {
+            return self.write_plan(Vec::new(), None);
         }
         if self.understanding.is_some() {
             return self.plan_for_team();
@@ -203,7 +217,7 @@ impl Coordinator {
     }
 
     pub(crate) fn allocate(&mut self) {
-        let (Some(understanding), Some(facts)) = (&self.understanding, self.view.state()) else { return };
+        let (Some(understanding), Some(facts)) = (&self.understanding, self.planned_from()) else { return };
         let mut subgoals = understanding.subgoals.clone();
         for &s in &self.reached_on_the_way {
             // Reached and left behind before this plan: nothing to do, and nothing waits for it.
@@ -225,6 +239,15 @@ impl Coordinator {
         self.enter(Phase::Allocating(job));
     }
 
+    /// The world as plans are made from it: without what the person has forbidden.
+    fn planned_from(&self) -> Option<BTreeSet<GroundAtom>> {
+        Some(as_planned(self.view.state()?, self.bans()))
+    }
+
+    fn bans(&self) -> &[Ban] {
+        self.understanding.as_ref().map_or(&[], |understanding| &understanding.bans)
+    }
+
     pub(crate) fn understood(&mut self, understood: Understood) {
         match understood {
             Understood::Yes(understanding) => {
@@ -241,7 +264,8 @@ impl Coordinator {
                 for assumption in &understanding.assumptions {
                     self.event(EventKind::Note, format!("assuming {assumption}"));
                 }
-                self.understanding = Some(understanding);
+                let divide = self.config.method.divide;
+                self.understanding = Some(if divide { understanding } else { understanding.undivided() });
                 if self.roster.lost() == self.granted_lost {
                     self.plan_for_team()
                 } else {
@@ -253,6 +277,7 @@ impl Coordinator {
                 let ask = serde_json::to_value(&clarification).ok();
                 self.finish_with(OutcomeKind::NeedsClarification, Some(question), ask);
             }
+            Understood::NoAnswer(why) => self.finish(OutcomeKind::GaveUp, Some(why)),
             Understood::Failed(why) => self.finish(OutcomeKind::Error, Some(why)),
         }
     }
@@ -264,7 +289,7 @@ impl Coordinator {
             Err(NoAllocation::NotThisWay(why)) => return self.coarsen(OutcomeKind::GaveUp, why),
             Err(NoAllocation::GaveUp(why)) => return self.coarsen(OutcomeKind::GaveUp, why),
         };
-        let Some(facts) = self.view.state() else { return };
+        let Some(facts) = self.planned_from() else { return };
         self.lower_bound.get_or_insert(allocation.lower_bound);
         let subgoals = self.understanding.as_ref().map_or(0, |u| u.subgoals.len());
         for s in 0..subgoals {
@@ -275,8 +300,11 @@ impl Coordinator {
                 self.event(EventKind::Note, text);
             }
         }
+        if self.is_written() {
+            return self.write_as_allocated(allocation);
+        }
         let merger = Merger::new(world_state(&facts));
-        let round = Round::new(allocation, merger, self.directives.len());
+        let round = Round::new(allocation, merger, self.directives.agents());
         self.enter(Phase::Planning(Box::new(round)));
     }
 
@@ -289,7 +317,13 @@ impl Coordinator {
             .filter_map(|a| self.roster.lost_reason(a).map(|r| format!("{} {r}", self.name_of(a))))
             .collect();
         let lost = if lost.is_empty() { String::new() } else { format!(" ({})", lost.join("; ")) };
-        self.finish(OutcomeKind::Infeasible, Some(format!("{why}{lost}")));
+        let forbidden: BTreeSet<String> = self.bans().iter().map(ToString::to_string).collect();
+        let forbidden = if forbidden.is_empty() {
+            String::new()
+        } else {
+            format!(" (forbidden: {})", forbidden.into_iter().collect::<Vec<_>>().join(", "))
+        };
+        self.finish(OutcomeKind::Infeasible, Some(format!("{why}{lost}{forbidden}")));
     }
 
     pub(crate) fn combined(&mut self, combined: Result<Box<Combined>, String>) {
@@ -318,7 +352,13 @@ impl Coordinator {
         if self.first_plan.is_none() {
             // Later plans start where the first has led: what is proved of them is not about the whole.
             self.lower_bound = Some(bound);
-            self.first_plan = Some((plan.makespan, plan.timeline.len()));
+            let busy = plan.timeline.iter().map(|step| step.duration).sum();
+            self.first_plan = Some((plan.makespan, busy));
+        }
+        let mut steps = plan.steps.iter().flatten();
+        if let Some(step) = steps.find(|step| self.bans().iter().any(|ban| ban.forbids(&step.act))) {
+            let why = format!("the plan would do what is forbidden: {}", step.act);
+            return self.finish(OutcomeKind::Error, Some(why));
         }
         self.event(
             EventKind::Note,
@@ -390,6 +430,7 @@ impl Coordinator {
             | Phase::Planning(_)
             | Phase::Combining(..)
             | Phase::PlanningJointly(_)
+            | Phase::Writing(..)
             | Phase::Executing(_) => self.replan("the team has changed"),
         }
     }
@@ -410,13 +451,17 @@ impl Coordinator {
             (Phase::PlanningJointly(id), CoordinatorDone::PlannedJointly(plan)) if *id == job => {
                 self.planned_jointly(plan);
             }
+            (Phase::Writing(id, _), CoordinatorDone::Written(plan)) if *id == job => {
+                self.plan_written(plan.map(|plan| *plan));
+            }
             // The answer to a question that is no longer asked.
             (
                 _,
                 CoordinatorDone::Understood(_)
                 | CoordinatorDone::Allocated(_)
                 | CoordinatorDone::Combined(_)
-                | CoordinatorDone::PlannedJointly(_),
+                | CoordinatorDone::PlannedJointly(_)
+                | CoordinatorDone::Written(_),
             ) => {}
         }
     }

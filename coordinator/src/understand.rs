@@ -3,6 +3,7 @@
 use lamma_lm::Clarification;
 use lamma_pddl::ast::Condition;
 
+use crate::bans::Ban;
 use crate::result::GoalResult;
 
 /// A sub-task with its goal in PDDL.
@@ -81,9 +82,29 @@ pub struct Understanding {
     pub goal: ScoreGoal,
     /// What was taken for granted.
     pub assumptions: Vec<String>,
+    /// What nobody may do on the way.
+    pub bans: Vec<Ban>,
 }
 
 impl Understanding {
+    /// The same as one task: what is reached on the way, and in which order, is lost.
+    pub fn undivided(self) -> Self {
+        let lasting = || self.subgoals.iter().filter(|s| s.lasting);
+        let texts: Vec<&str> = lasting().map(|s| s.text.as_str()).collect();
+        let mut advice: Vec<String> = lasting().flat_map(|s| s.advice.clone()).collect();
+        advice.sort();
+        advice.dedup();
+        let whole = Subgoal {
+            id: "s1".into(),
+            text: texts.join(", "),
+            goal: self.final_goal(),
+            after: Vec::new(),
+            lasting: true,
+            advice,
+        };
+        Understanding { subgoals: vec![whole], ..self }
+    }
+
     /// Everything that shall hold at the end.
     pub fn final_goal(&self) -> Condition {
         Condition::And(self.subgoals.iter().filter(|s| s.lasting).map(|s| s.goal.clone()).collect())
@@ -97,6 +118,8 @@ pub enum Understood {
     Yes(Understanding),
     /// Ask first.
     Ask(Clarification),
-    /// Neither model nor fall-back gave an answer.
+    /// The model's answers cannot be used and nothing is to step in for it.
+    NoAnswer(String),
+    /// Neither model nor fall-back could be asked.
     Failed(String),
 }

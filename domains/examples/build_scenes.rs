@@ -12,7 +12,8 @@ use std::path::Path;
 use lamma_domains::goal::PropertyValue;
 use lamma_domains::kinds::{Kinds, encloses};
 use lamma_domains::place;
-use lamma_domains::scene::{Placed, Scene, SceneObject};
+use lamma_domains::scene::{CELL_M, Grid, Placed, Scene, SceneObject};
+use lamma_domains::seed::Seed;
 use serde_json::Value;
 
 /// The seed behind everything placed by rule.
@@ -32,12 +33,13 @@ fn main() -> Result<(), Box<dyn Error>> {
             let measured = folder.join(format!("scenes_v5/FloorPlan{number}.json"));
             let layout = &layouts["floor_plans"][number.to_string()];
             let counted = &counts["floor_plans"][number.to_string()]["objects"];
-            let scene = if measured.exists() {
+            let mut scene = if measured.exists() {
                 measured_scene(number, &serde_json::from_str(&std::fs::read_to_string(measured)?)?)
             } else {
                 let known = if number == 15 { &fifteen } else { &Value::Null };
                 ruled_scene(number, counted, layout, known)
             };
+            walk(&mut scene, layout);
             let path = format!("{}/household/scenes/FloorPlan{number}.json", env!("CARGO_MANIFEST_DIR"));
             std::fs::write(path, text(&scene)?)?;
         }
@@ -60,7 +62,10 @@ fn text(scene: &Scene) -> Result<String, Box<dyn Error>> {
     writeln!(out, "{{\"scene\":{},", serde_json::to_string(&scene.scene)?)?;
     writeln!(out, "\"room\":{},", serde_json::to_string(&scene.room)?)?;
     writeln!(out, "\"placed\":{},", serde_json::to_string(&scene.placed)?)?;
-    writeln!(out, "\"about\":{},\n\"objects\":[", serde_json::to_string(&scene.about)?)?;
+    writeln!(out, "\"about\":{},", serde_json::to_string(&scene.about)?)?;
+    let rows: Result<Vec<String>, _> = scene.floor.rows.iter().map(serde_json::to_string).collect();
+    let corner = serde_json::to_string(&scene.floor.corner)?;
+    writeln!(out, "\"floor\":{{\"corner\":{corner},\"rows\":[\n{}\n]}},\n\"objects\":[", rows?.join(",\n"))?;
     let objects: Result<Vec<String>, _> = scene.objects.iter().map(serde_json::to_string).collect();
     writeln!(out, "{}\n]}}", objects?.join(",\n"))?;
     Ok(out)
@@ -82,6 +87,7 @@ fn object(name: String, kind: &str) -> SceneObject {
         controls: Vec::new(),
         fills: Vec::new(),
         placed: None,
+        stand: None,
     }
 }
 
@@ -102,6 +108,7 @@ fn measured_scene(number: u32, file: &Value) -> Scene {
                 them. By rule: which tap runs into which basin (the nearest), where the metadata names no \
                 container (the nearest that accepts), and one container where it names several."
                 .to_string(),
+        floor: Grid { corner: [0.0, 0.0], rows: Vec::new() },
         objects,
     }
 }
@@ -238,6 +245,7 @@ fn ruled_scene(number: u32, counted: &Value, layout: &Value, known: &Value) -> S
             "{what}. By rule and seed {SEED}: what movable things lie in{some}, knobs and taps. Nothing is known \
              of the state at the start, so it is the usual one: lights on, doors closed, things clean and whole."
         ),
+        floor: Grid { corner: [0.0, 0.0], rows: Vec::new() },
         objects,
     }
 }
@@ -373,4 +381,107 @@ fn near(at: Option<[f64; 3]>, list: &[(String, Option<[f64; 3]>)], index: usize)
         Some(placed) => placed.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, n)| n.clone()),
         None => list.get(index).or(list.last()).map(|(name, _)| name.clone()),
     }
+}
+
+// ---------------------------------------------------------------- walking
+
+/// A cell of the floor, in cells from the origin.
+type Cell = (i64, i64);
+
+/// The floor and where one stands at what does not move.
+fn walk(scene: &mut Scene, layout: &Value) {
+    let cells = cells(layout);
+    scene.floor = grid(&cells);
+    let poses = poses(layout);
+    let fixed = |o: &SceneObject| !Kinds::get().find(&o.kind).is_some_and(|k| k.is("pickupable"));
+    let serves = |o: &SceneObject| !o.fills.is_empty() || !o.controls.is_empty();
+    let walls: Vec<Cell> = cells.iter().copied().filter(|c| is_edge(*c, &cells)).collect();
+    let name = &scene.scene;
+    let alone = |o: &SceneObject| match o.at {
+        _ if o.kind == "Floor" => closest(middle(&cells), &cells),
+        Some(at) => closest(posed(&o.kind, at, &poses).unwrap_or([at[0], at[2]]), &cells),
+        None => metres(walls[Seed::new(SEED, &[name, &o.name, "stand"]).below(walls.len())]),
+    };
+    for object in scene.objects.iter_mut().filter(|o| fixed(o) && !serves(o)) {
+        object.stand = Some(alone(object));
+    }
+    // A tap is where its basin is, a knob where its burner is.
+    let known: BTreeMap<String, [f64; 2]> =
+        scene.objects.iter().filter_map(|o| Some((o.name.clone(), o.stand?))).collect();
+    for object in scene.objects.iter_mut().filter(|o| fixed(o) && serves(o)) {
+        let served = object.fills.iter().chain(&object.controls).find_map(|name| known.get(name).copied());
+        object.stand = served.or_else(|| Some(alone(object)));
+    }
+    scene.about.push_str(
+        " For walking: the floor's cells and where one stands at a receptacle by AI2-THOR 2.1, at a tap or \
+         knob as at what it serves, at other things the cell nearest to them, or where they are is not known a cell at \
+         the edge by the seed.",
+    );
+}
+
+fn metres(cell: Cell) -> [f64; 2] {
+    [cell.0 as f64 * CELL_M, cell.1 as f64 * CELL_M]
+}
+
+fn cells(layout: &Value) -> Vec<Cell> {
+    let point = |p: &Value| Some((p[0].as_f64()? / CELL_M, p[1].as_f64()? / CELL_M));
+    let points = layout["reachable_xz"].as_array().into_iter().flatten().filter_map(point);
+    let mut cells: Vec<Cell> = points.map(|(x, z)| (x.round() as i64, z.round() as i64)).collect();
+    cells.sort_unstable();
+    cells
+}
+
+fn grid(cells: &[Cell]) -> Grid {
+    let span = |of: fn(&Cell) -> i64| {
+        let all = || cells.iter().map(of);
+        (all().min().unwrap_or(0), all().max().unwrap_or(0))
+    };
+    let ((x0, x1), (z0, z1)) = (span(|c| c.0), span(|c| c.1));
+    let letter = |x, z| if cells.binary_search(&(x, z)).is_ok() { '.' } else { '#' };
+    Grid {
+        corner: metres((x0, z0)),
+        rows: (z0..=z1).map(|z| (x0..=x1).map(|x| letter(x, z)).collect()).collect(),
+    }
+}
+
+/// The standing poses of receptacles: type, position, where one stands.
+fn poses(layout: &Value) -> Vec<(String, [f64; 3], [f64; 2])> {
+    let pose = |(id, pose): (&String, &Value)| {
+        let parts: Vec<&str> = id.split('|').collect();
+        let at: Vec<f64> = parts.iter().skip(1).take(3).filter_map(|n| n.parse().ok()).collect();
+        let kind = parts.get(4).copied().unwrap_or(parts[0]).to_string();
+        Some((kind, at.try_into().ok()?, [pose[0].as_f64()?, pose[1].as_f64()?]))
+    };
+    layout["receptacle_standing_pose"].as_object().into_iter().flatten().filter_map(pose).collect()
+}
+
+/// The pose of the receptacle of that type nearest to the position, if it can be the same one.
+fn posed(kind: &str, at: [f64; 3], poses: &[(String, [f64; 3], [f64; 2])]) -> Option<[f64; 2]> {
+    let same =
+        poses.iter().filter(|(of, ..)| of == kind).map(|(_, there, stand)| (distance(at, *there), *stand));
+    same.filter(|(apart, _)| *apart < 0.5).min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, stand)| stand)
+}
+
+fn middle(cells: &[Cell]) -> [f64; 2] {
+    let n = cells.len().max(1) as f64;
+    let mean = |of: fn(&Cell) -> i64| cells.iter().map(of).sum::<i64>() as f64 * CELL_M / n;
+    [mean(|c| c.0), mean(|c| c.1)]
+}
+
+fn closest(at: [f64; 2], cells: &[Cell]) -> [f64; 2] {
+    let apart = |cell: Cell| {
+        let there = metres(cell);
+        (there[0] - at[0]).powi(2) + (there[1] - at[1]).powi(2)
+    };
+    cells
+        .iter()
+        .map(|c| (apart(*c), metres(*c)))
+        .min_by(|(a, _), (b, _)| a.total_cmp(b))
+        .map_or(at, |(_, m)| m)
+}
+
+fn is_edge(cell: Cell, cells: &[Cell]) -> bool {
+    [(1, 0), (-1, 0), (0, 1), (0, -1)]
+        .iter()
+        .any(|(dx, dz)| cells.binary_search(&(cell.0 + dx, cell.1 + dz)).is_err())
 }

@@ -19,6 +19,7 @@ mod scribe;
 pub mod seed;
 pub mod tasks;
 pub mod view;
+pub mod ways;
 pub mod world;
 
 pub use condition::{Goal, GoalFact, GoalGroup, Reached, condition};

@@ -53,7 +53,23 @@ pub struct SceneObject {
     /// Where this differs from the scene's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placed: Option<Placed>,
+    /// Where one stands at it, on a cell of the floor: x and z in metres. Only of what does not move.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stand: Option<[f64; 2]>,
 }
+
+/// Where one can walk: a grid of cells.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Grid {
+    /// The first cell of the first row: x and z in metres.
+    pub corner: [f64; 2],
+    /// One row for each z, one letter for each x: `.` can be walked on, `#` cannot.
+    pub rows: Vec<String>,
+}
+
+/// The side of a cell in metres, as AI2-THOR's agents step.
+pub const CELL_M: f64 = 0.25;
 
 /// A floor plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -67,6 +83,8 @@ pub struct Scene {
     pub placed: Placed,
     /// What is measured and what is not, in words.
     pub about: String,
+    /// Its floor.
+    pub floor: Grid,
     /// Its objects, by type and number.
     pub objects: Vec<SceneObject>,
 }

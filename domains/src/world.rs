@@ -10,6 +10,7 @@ use crate::goal::PropertyValue;
 use crate::kinds::{self, Kinds};
 use crate::robots::{self, Robot};
 use crate::scene::{self, SceneObject};
+use crate::ways::Ways;
 use crate::{HouseError, crews, facts, nearest, place, property};
 
 /// Objects of a task's own: these many of a type, there, so.
@@ -60,6 +61,8 @@ pub struct Thing {
     pub controls: Vec<String>,
     /// The basins it runs into.
     pub fills: Vec<String>,
+    /// Where one stands at it, if it does not move.
+    pub stand: Option<[f64; 2]>,
 }
 
 impl Thing {
@@ -87,6 +90,7 @@ impl Thing {
             is: object.is.clone(),
             controls: object.controls.clone(),
             fills: object.fills.clone(),
+            stand: object.stand,
         };
         if kinds::washable(&thing.kind) && !thing.can("dirtyable") {
             thing.affordances.push("dirtyable".to_string());
@@ -130,6 +134,8 @@ pub struct WorldSetup {
     pub on_lost: Option<Name>,
     /// The things and what never changes about them, in the order of `objects`.
     pub things: Vec<Thing>,
+    /// How far it is from thing to thing, where going takes its time.
+    pub ways: Option<Ways>,
 }
 
 impl WorldSetup {
@@ -162,6 +168,9 @@ pub struct Rules {
     /// Slicing needs no knife.
     #[serde(skip_serializing_if = "is_false")]
     pub knife_free: bool,
+    /// Going takes a step for each cell on the way instead of one in all.
+    #[serde(skip_serializing_if = "is_false")]
+    pub travel: bool,
     /// Furniture and fixtures, by type or name, where only one robot at a time can stand.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub exclusive: Vec<String>,
@@ -259,6 +268,7 @@ pub fn setup_with(
         init: facts::initial(&things, team, &crews, rules),
         members,
         on_lost: Some(Name::new("RobotLost")),
+        ways: rules.travel.then(|| Ways::new(&scene.floor, &things)),
         things,
         domain,
     })
@@ -294,6 +304,7 @@ fn replace_movables(
                 controls: Vec::new(),
                 fills: Vec::new(),
                 placed: None,
+                stand: None,
             };
             new.push((Thing::from_scene(&object), spec.place.clone()));
         }

@@ -72,6 +72,33 @@ fn every_scene_loads_and_its_start_is_consistent() {
 }
 
 #[test]
+fn every_burner_has_a_knob_and_every_basin_a_tap() {
+    for name in scene::names() {
+        let objects = scene::load(&name).unwrap().objects;
+        let of = |kinds: &[&str]| -> Vec<String> {
+            let wanted = objects.iter().filter(|o| kinds.contains(&o.kind.as_str()));
+            wanted.map(|o| o.name.clone()).collect()
+        };
+        for burner in of(&["StoveBurner"]) {
+            let knobs = objects.iter().filter(|o| o.controls.contains(&burner)).count();
+            assert!(knobs > 0, "{name}: no knob for {burner}");
+        }
+        // Two bathrooms of AI2-THOR 2.1 have no tap at all.
+        for basin in of(&["SinkBasin", "BathtubBasin"]).into_iter().filter(|_| !of(&["Faucet"]).is_empty()) {
+            let taps = objects.iter().filter(|o| o.fills.contains(&basin)).count();
+            assert!(taps > 0, "{name}: no tap for {basin}");
+        }
+        for switch in objects.iter().filter(|o| ["StoveKnob", "Faucet"].contains(&o.kind.as_str())) {
+            assert!(
+                !switch.controls.is_empty() || !switch.fills.is_empty(),
+                "{name}: {} does nothing",
+                switch.name
+            );
+        }
+    }
+}
+
+#[test]
 fn an_unknown_scene_is_an_error_with_the_nearest() {
     let error = scene::load("FloorPlam15").unwrap_err().to_string();
     assert!(error.contains("did you mean `FloorPlan15`?"), "{error}");

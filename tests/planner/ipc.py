@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs planners over the planning competition's tasks and prints how they compare.
 
-    python3 tests/planner/ipc.py COLLECTION [--suite satisficing|optimal] [--time-limit 30] [--only TEXT]
+    python3 tests/planner/ipc.py COLLECTION [--suite satisficing|optimal] [--time-limit 30] [--only TEXT] [--rows FILE]
 
 COLLECTION is a checkout of github.com/aibasel/downward-benchmarks (not shipped here). The instances come from
 `satisficing.txt` or `optimal.txt` beside this file; `--list-rule` prints the suite's list anew from the collection, by the rule
@@ -17,14 +17,21 @@ Every planner gets one instance after the other, each in a folder of its own, wi
 of the whole process tree and address space. A plan counts only if `lamma validate` accepts it; its cost is the
 one the validator works out. Compared are CPU times (user and system, everything from process start on), so
 other work on the machine matters little.
+
+With `--rows` results are kept: what the file says of a planner of the same content on the same machine is not
+run again, as far as it answers. A plan found within the limit answers, and so does a failure that came before its
+limit or under one that was no lower. So a first round with `--time-limit 3` is not lost for the one with 30, and a change of our own planner costs
+no run of its peers.
 """
 
 import argparse
 import csv
 import glob
+import hashlib
 import json
 import math
 import os
+import platform
 import re
 import resource
 import shutil
@@ -104,7 +111,9 @@ def planners(suite, lamma):
     kairos, ferroplan = tool("KAIROS", "kairos"), tool("FERROPLAN", "ff")
     yield "lamma", own
     yield "lama-first", downward and downward + ["--alias", "lama-first", "{domain}", "{problem}"]
-    yield "kairos", kairos and [kairos, "{domain}", "{problem}", "--no-anytime", "--threads", "1"]
+    # kairos divides the time it is told; always told the same, it finds a plan at the same point under any limit.
+    yield "kairos", kairos and [kairos, "{domain}", "{problem}", "--no-anytime", "--threads", "1",
+                               "--timeout", "30", "--memory", "{mib}"]
     yield "ferroplan", ferroplan and [ferroplan, "-o", "{domain}", "-f", "{problem}", "--json", "--threads", "1"]
 
 
@@ -119,8 +128,8 @@ def run(command, folder, seconds, mib):
     with open(os.path.join(folder, "stdout"), "wb") as out, open(os.path.join(folder, "stderr"), "wb") as err:
         process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err,
                                    preexec_fn=limits, start_new_session=True)
-        # On a machine with other work a process gets less than a second of CPU in a second.
-        end = time.monotonic() + 4 * seconds + 10
+        # On a machine with other work a process gets (much) less than a second of CPU in a second.
+        end = time.monotonic() + 20 * seconds + 60
         pause = 0.0005
         while True:
             pid, status, usage = os.wait4(process.pid, os.WNOHANG)
@@ -152,9 +161,11 @@ def plan_lines(folder, text):
         try:
             steps = json.loads(text).get("plan") or []
             steps = steps.get("steps", []) if isinstance(steps, dict) else steps
-            text = "\n".join(s if isinstance(s, str) else str(s.get("action", s.get("name"))) for s in steps)
+            named = [s if isinstance(s, str) else " ".join([s.get("action", s.get("name")), *s.get("args", [])])
+                     for s in steps]
+            text = "\n".join(named)
             text = "\n".join(line if line.startswith("(") else f"({line})" for line in text.splitlines())
-        except (ValueError, AttributeError):
+        except (ValueError, AttributeError, TypeError):
             pass
     lines = (re.match(r"\s*(?:[\d.]+:\s*)?(\([^()]*\))", line) for line in text.splitlines())
     return [match.group(1).lower() for match in lines if match]
@@ -184,6 +195,61 @@ def attempt(command, lamma, domain, problem, options):
         return row | dict(status="solved", cost=float(cost.group(1)) if cost else float(len(steps)))
 
 
+# --- results that are kept --------------------------------------------------------------------------------------
+
+KEYS = ["problem", "planner", "status", "cost", "cpu", "mib", "exit", "said", "limit", "memory", "content", "machine"]
+
+
+def content_of(command):
+    """What tells a planner from its other versions: a hash over the program (of Fast Downward: the search)."""
+    program = next(part for part in command if os.path.basename(part) != os.path.basename(sys.executable))
+    search = os.path.join(os.path.dirname(program), "builds/release/bin/downward")
+    digest = hashlib.sha256()
+    for path in (program, search):
+        if os.path.exists(path):
+            with open(path, "rb") as file:
+                digest.update(file.read())
+    return digest.hexdigest()[:12]
+
+
+class Rows:
+    """The rows of a file, if one is given, and those that come."""
+
+    def __init__(self, path, options):
+        self.path, self.options, self.known = path, options, {}
+        self.machine = f"{platform.node()} {platform.machine()} {os.cpu_count()}"
+        if path and os.path.exists(path):
+            with open(path, newline="") as file:
+                for row in csv.DictReader(file):
+                    number = dict(cpu=float(row["cpu"]), limit=float(row["limit"]), memory=int(row["memory"]))
+                    number["cost"] = float(row["cost"]) if row["cost"] else ""
+                    row = row | number | dict(mib=int(row["mib"]))
+                    self.known.setdefault((row["problem"], row["planner"], row["content"]), []).append(row)
+
+    def answer(self, problem, planner, content):
+        """What is known already under these limits, or nothing."""
+        for row in reversed(self.known.get((problem, planner, content), [])):
+            if row["machine"] != self.machine or row["memory"] != self.options.memory_limit:
+                continue
+            if row["status"] == "solved" and row["cpu"] <= self.options.time_limit:
+                return row
+            ended = row["exit"] != str(-signal.SIGKILL) and row["cpu"] < 0.9 * row["limit"]
+            if row["limit"] >= self.options.time_limit or ended:
+                return row if row["cpu"] <= self.options.time_limit else row | dict(status="time", cost="")
+        return None
+
+    def add(self, row):
+        """Keeps a new row."""
+        row.update(limit=self.options.time_limit, memory=self.options.memory_limit, machine=self.machine)
+        if self.path:
+            new = not os.path.exists(self.path)
+            with open(self.path, "a", newline="") as file:
+                writer = csv.DictWriter(file, KEYS)
+                if new:
+                    writer.writeheader()
+                writer.writerow(row)
+
+
 # --- the report ----------------------------------------------------------------------------------------------
 
 def mean(ratios):
@@ -202,7 +268,7 @@ def report(rows, names):
         solved = {p for p, r in by[name].items() if r["status"] == "solved"}
         line = f"{name:12} {len(solved):6} {sum(r['status'] == 'invalid' for r in by[name].values()):5}"
         if name != names[0]:
-            both = sorted(p for p in solved if own[p]["status"] == "solved")
+            both = sorted(p for p in solved if p in own and own[p]["status"] == "solved")
             ratio = mean([max(own[p]["cpu"], 1e-4) / max(by[name][p]["cpu"], 1e-4) for p in both])
             ours, theirs = (sum(side[p]["cost"] for p in both) for side in (own, by[name]))
             costs = ours / theirs if theirs else float("nan")
@@ -211,8 +277,8 @@ def report(rows, names):
             line += f" | {len(both):5} {ratio:15.3f} {costs:16.3f} {cheaper:7} {dearer:6}"
         print(line)
     for name in names[1:]:
-        only = sorted((p for p, r in by[name].items() if r["status"] == "solved" and own[p]["status"] != "solved"),
-                      key=natural)
+        only = sorted((p for p, r in by[name].items()
+                       if r["status"] == "solved" and p in own and own[p]["status"] != "solved"), key=natural)
         if only:
             print(f"\nsolved by {name} and not by {names[0]}: {' '.join(only)}")
 
@@ -229,7 +295,8 @@ def main():
     parser.add_argument("--every", type=int, default=1, help="only every Nth problem of the list")
     parser.add_argument("--planners", help="only these, by name, comma-separated")
     parser.add_argument("--lamma", default=os.path.join(ROOT, "target/release/lamma"))
-    parser.add_argument("--out", help="a CSV file for the rows")
+    parser.add_argument("--rows", help="a CSV file that keeps the results, read first and added to as they come")
+    parser.add_argument("--known", action="store_true", help="report what --rows knows, run nothing")
     options = parser.parse_args()
     collection = os.path.abspath(options.collection)
     if options.list_rule:
@@ -248,6 +315,12 @@ def main():
     with open(options.list or os.path.join(HERE, f"{options.suite}.txt")) as file:
         problems = [line.strip() for line in file if line.strip() and not line.startswith("#")]
     problems = [p for p in problems if options.only in p][:: options.every]
+    # The first of every domain, then the second: an early end has seen all domains.
+    seen = {}
+    turn = [seen.setdefault(os.path.dirname(p), []).append(p) or len(seen[os.path.dirname(p)]) for p in problems]
+    problems = [p for _, p in sorted(zip(turn, problems), key=lambda pair: pair[0])]
+    kept = Rows(options.rows, options)
+    contents = {name: content_of(command) for name, command in chosen}
     rows = []
     for problem in problems:
         path = os.path.join(collection, problem)
@@ -257,17 +330,18 @@ def main():
             continue
         line = []
         for name, command in chosen:
-            row = attempt(command, lamma, domain, path, options)
-            rows.append(dict(problem=problem, planner=name) | row)
-            result = f"{row['cost']:g}" if row["status"] == "solved" else row["status"]
-            line.append(f"{name} {result} {row['cpu']:.3f}s {row['mib']}M {row.get('said', '')}")
-        print(f"{problem}: {' · '.join(line)}", file=sys.stderr, flush=True)
-    if options.out:
-        keys = ["problem", "planner", "status", "cost", "cpu", "mib", "exit", "said"]
-        with open(options.out, "w", newline="") as file:
-            writer = csv.DictWriter(file, keys)
-            writer.writeheader()
-            writer.writerows(rows)
+            row = kept.answer(problem, name, contents[name])
+            if row is None and options.known:
+                continue
+            if row is None:
+                row = dict(problem=problem, planner=name, content=contents[name])
+                row |= attempt(command, lamma, domain, path, options)
+                kept.add(row)
+                result = f"{row['cost']:g}" if row["status"] == "solved" else row["status"]
+                line.append(f"{name} {result} {row['cpu']:.3f}s {row['mib']}M {row.get('said', '')}")
+            rows.append(row)
+        if line:
+            print(f"{problem}: {' · '.join(line)}", file=sys.stderr, flush=True)
     if rows:
         report(rows, [name for name, _ in chosen])
 

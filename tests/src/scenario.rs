@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use lamma_coordinator::result::RunResult;
 use lamma_coordinator::{
-    AllocationRule, Coordinator, CoordinatorConfig, GoalGroup, GoalItem, Member, Mission, Patience,
+    AllocationRule, Coordinator, CoordinatorConfig, GoalGroup, GoalItem, Member, Method, Mission, Patience,
     ScoreGoal, Subgoal, Team, Understanding,
 };
 use lamma_pddl::ast::{Condition, Domain, Init, TypedName};
@@ -128,6 +128,7 @@ impl Scenario {
             relaxations: Vec::new(),
             numbers: Vec::new(),
             skill_facts: Default::default(),
+            travel: None,
         });
         let condition = |text: &str| parse_condition(text).expect("the goal parses");
         let group = |(text, goal, _): &(&str, &str, Vec<usize>)| GoalGroup {
@@ -149,6 +150,7 @@ impl Scenario {
                 .collect(),
             goal: ScoreGoal { groups: subgoals.iter().map(group).collect() },
             assumptions: Vec::new(),
+            bans: Vec::new(),
         };
         let init = init.iter().map(|f| Init::Fact(parse_ground_atom(f).expect("the fact parses"))).collect();
         let interpreter = Interpreter::new(&world, &objects).expect("the domain makes sense");
@@ -179,6 +181,7 @@ impl Scenario {
             on_lost: Some(Name::new("Lost")),
             step_ms: 0,
             events: Vec::new(),
+            travel: None,
         })
         .expect("the world can be set up")
     }
@@ -189,6 +192,7 @@ impl Scenario {
             mission: Mission::Divide(Some(self.understanding.clone())),
             score: None,
             reference: None,
+            method: Method::default(),
             rule: AllocationRule::Shortest,
             solve_only: false,
             expansions: 20_000,

@@ -5,11 +5,14 @@
 //! hash.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::sync::atomic::AtomicBool;
 
 use lamma_coordinator::result::{OutcomeKind, RunResult};
-use lamma_coordinator::{Coordinator, CoordinatorDone, CoordinatorJob, Understood};
+use lamma_coordinator::written::{NotWritten, WriteInput};
+use lamma_coordinator::{Author, Coordinator, CoordinatorDone, CoordinatorJob, Understood};
+use lamma_lm::Script;
+use lamma_pddl::ast::GroundAtom;
 use lamma_protocol::message::{Command, PlanResult};
 use lamma_protocol::{
     AgentId, Envelope, Frame, Input, JobId, Machine, Message, Node, Output, Revision, Tick, Topic, codec,
@@ -404,10 +407,29 @@ impl Testbed<'_> {
     }
 
     fn coordinator_job(&mut self, id: JobId, job: CoordinatorJob) {
-        let nobody = |_, _: &AtomicBool| Understood::Failed("no language in the testbed".into());
-        let done = job.run(nobody, &AtomicBool::new(false));
+        let done = job.run(&mut Nobody, &AtomicBool::new(false));
         let at = self.now.after_us(self.rng.range(100, 20_000));
         self.push(at, Node::Coordinator, Delivery::CoordinatorDone(id, Box::new(done)));
+    }
+}
+
+/// The testbed has no language.
+struct Nobody;
+
+const SILENT: &str = "no language in the testbed";
+
+impl Author for Nobody {
+    fn understand(&mut self, _: BTreeSet<GroundAtom>, _: &AtomicBool) -> Understood {
+        Understood::Failed(SILENT.into())
+    }
+
+    fn write(
+        &mut self,
+        _: &WriteInput,
+        _: &dyn Fn(&Script) -> Vec<String>,
+        _: &AtomicBool,
+    ) -> Result<Script, NotWritten> {
+        Err(NotWritten::Failed(SILENT.into()))
     }
 }
 

@@ -9,12 +9,16 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use lamma_domains::robots::{Robot, SKILLS, actions_of};
 use lamma_domains::seed::Seed;
-use lamma_domains::world::{ObjectSpec, Rules, WorldSetup, setup_with};
+use lamma_domains::world::{ObjectSpec, Rules, Thing, WorldSetup, setup_with};
 use lamma_pddl::Name;
+use lamma_planner::GroundAct;
 use lamma_protocol::message::{Act, Grant, Message, Request, Verdict};
-use lamma_protocol::{AgentId, Envelope, Epoch, Input, Machine, Output, Revision, Tick, Topic};
-use lamma_simulator::{AgentSpec, Arbiter, WorldConfig};
+use lamma_protocol::{AgentId, Envelope, Epoch, Input, Machine, Output, Revision, StepIndex, Tick, Topic};
+use lamma_simulator::{AgentSpec, Arbiter, Event, Happening, WorldConfig};
 use lamma_tests::house::{COMPARED, House};
+
+/// Things that happen without the team in one world.
+const EVENTS: usize = 60;
 
 /// Acts in one world before a new one is begun: later ones meet ever more broken and used-up things.
 const EPISODE: usize = 400;
@@ -52,12 +56,61 @@ fn parameters(action: &str) -> &'static [Give] {
     }
 }
 
+/// Something that happens before a step of a robot.
+#[derive(Clone, Debug)]
+struct Scripted {
+    agent: usize,
+    step: u64,
+    /// The act, or none for a step that fails.
+    act: Option<Vec<String>>,
+}
+
+impl Scripted {
+    fn event(&self) -> Event {
+        let what = match &self.act {
+            Some(words) => {
+                Happening::Act(GroundAct::new(words[0].as_str(), words[1..].iter().map(String::as_str)))
+            }
+            None => Happening::Fail,
+        };
+        Event { agent: AgentId(self.agent as u16), step: self.step, what }
+    }
+}
+
+/// Events of an episode, some of them possible when their time comes.
+fn script(setup: &WorldSetup, random: &mut Seed) -> Vec<Scripted> {
+    let pick = |which: &dyn Fn(&Thing) -> bool, random: &mut Seed| -> String {
+        let names: Vec<&str> = setup.things.iter().filter(|t| which(t)).map(|t| t.name.as_str()).collect();
+        names[random.below(names.len())].to_string()
+    };
+    let one = |_| {
+        let agent = random.below(setup.members.len());
+        let step = 1 + random.below(EPISODE / setup.members.len()) as u64;
+        let act = match random.below(5) {
+            0 => None,
+            1 | 2 => Some(vec!["DoorClosed".to_string(), pick(&|t| t.can("openable"), random)]),
+            _ => {
+                let (x, to) =
+                    (pick(&|t| t.can("pickupable"), random), pick(&|t| t.can("receptacle"), random));
+                Some(vec!["ObjectMoved".to_string(), x, to])
+            }
+        };
+        Scripted { agent, step, act }
+    };
+    (0..EVENTS).map(one).collect()
+}
+
 struct Both {
     setup: WorldSetup,
     arbiter: Arbiter,
     house: House,
     revision: u64,
     epoch: u64,
+    now: Tick,
+    /// What will still happen without the team.
+    script: Vec<Scripted>,
+    /// Steps of each robot that were judged.
+    judged: Vec<u64>,
     /// What robots gather around for a while, so that they meet.
     focus: String,
 }
@@ -67,6 +120,7 @@ impl Both {
         let objects: Option<Vec<ObjectSpec>> = objects.map(|o| serde_json::from_str(o).unwrap());
         let setup =
             setup_with(scene, team, objects.as_deref(), seed, rules).unwrap_or_else(|e| panic!("{e}"));
+        let script = script(&setup, &mut Seed::new(seed, &["events"]));
         let agents = setup.members.iter().map(|m| AgentSpec {
             name: Name::new(&m.name),
             skills: m.domain.actions.iter().map(|a| a.name.clone()).collect(),
@@ -78,21 +132,42 @@ impl Both {
             agents: agents.collect(),
             on_lost: setup.on_lost.clone(),
             step_ms: 0,
-            events: Vec::new(),
+            events: script.iter().map(|event| event.event()).collect(),
+            travel: None,
         })
         .unwrap();
         let house = House::new(&setup, team, rules);
-        Both { setup, arbiter, house, revision: 0, epoch: 0, focus: "Floor_1".into() }
+        let judged = vec![0; team.len()];
+        Both {
+            setup,
+            arbiter,
+            house,
+            revision: 0,
+            epoch: 0,
+            now: Tick(0),
+            script,
+            judged,
+            focus: "Floor_1".into(),
+        }
     }
 
-    fn say(&mut self, topic: Topic, message: Message) -> Option<Verdict> {
+    fn say(&mut self, topic: Topic, message: Message) {
         self.revision += 1;
         let revision = Revision { incarnation: 0, number: self.revision };
-        self.arbiter.handle(Tick(0), Input::Message(topic, Envelope { revision, message }));
+        self.arbiter.handle(self.now, Input::Message(topic, Envelope { revision, message }));
+    }
+
+    /// The answer to that step of the agent, among what the simulator says; it repeats older ones.
+    fn verdict(&mut self, agent: AgentId, step: StepIndex) -> Option<Verdict> {
         let mut verdict = None;
         while let Some(output) = self.arbiter.poll_output() {
-            if let Output::Publish(Topic::Ack(_), Message::Ack(ack)) = output {
-                verdict = Some(ack.verdict);
+            match output {
+                Output::Publish(Topic::Ack(to), Message::Ack(ack))
+                    if to == agent && (ack.epoch, ack.step) == (Epoch(self.epoch), step) =>
+                {
+                    verdict = Some(ack.verdict);
+                }
+                _ => {}
             }
         }
         verdict
@@ -108,7 +183,16 @@ impl Both {
         let step = self.arbiter.progress()[agent];
         let act = Act { action: words[0].into(), args: words[1..].iter().map(ToString::to_string).collect() };
         let request = Request { epoch: Epoch(self.epoch), step, act, gates: Vec::new() };
-        match self.say(Topic::Request(AgentId(agent as u16)), Message::Request(request)) {
+        let id = AgentId(agent as u16);
+        self.say(Topic::Request(id), Message::Request(request));
+        let mut verdict = self.verdict(id, step);
+        if verdict.is_none() {
+            // It is held until the world has been still: something happens first.
+            self.now = self.now.after_ms(1_000);
+            self.arbiter.handle(self.now, Input::Timeout);
+            verdict = self.verdict(id, step);
+        }
+        match verdict {
             Some(Verdict::Applied { .. }) => Ok(()),
             Some(Verdict::Refused(refusal)) => {
                 // What is refused stays refused within its epoch.
@@ -117,6 +201,21 @@ impl Both {
             }
             None => panic!("no answer to {words:?}"),
         }
+    }
+
+    /// What happens before the robot's next step, in the state machine; how much of it was possible, and whether the
+    /// step itself fails.
+    fn happen(&mut self, agent: usize) -> (usize, bool) {
+        self.judged[agent] += 1;
+        let step = self.judged[agent];
+        let (now, later) =
+            std::mem::take(&mut self.script).into_iter().partition(|e| (e.agent, e.step) == (agent, step));
+        self.script = later;
+        let now: Vec<Scripted> = now;
+        let fails = now.iter().any(|event| event.act.is_none());
+        let words = now.iter().filter_map(|event| event.act.as_ref());
+        let words: Vec<Vec<&str>> = words.map(|w| w.iter().map(String::as_str).collect()).collect();
+        (words.iter().filter(|w| self.house.happen(w).is_ok()).count(), fails)
     }
 
     fn facts(&self) -> BTreeSet<String> {
@@ -208,7 +307,8 @@ fn worlds() -> Vec<(&'static str, Vec<Robot>, Option<&'static str>, Rules)> {
     let mut half = mixed.clone();
     half[0].skills.retain(|s| s != "PickupObject" && s != "SwitchOn");
     half[1].skills.retain(|s| s != "PutObject" && s != "OpenObject");
-    let own = Rules { knife_free: true, exclusive: vec!["Fridge".into(), "CounterTop_1".into()] };
+    let exclusive = vec!["Fridge".into(), "CounterTop_1".into()];
+    let own = Rules { knife_free: true, exclusive, ..Rules::default() };
     vec![
         ("FloorPlan6", mixed.clone(), Some(KITCHEN), Rules::default()),
         ("FloorPlan6", weak.clone(), Some(KITCHEN), Rules::default()),
@@ -225,6 +325,7 @@ fn the_simulator_and_the_state_machine_agree() {
     let worlds = worlds();
     let mut counts: BTreeMap<String, [usize; 2]> = BTreeMap::new();
     let mut lost = 0;
+    let mut events = [0, 0];
     for episode in 0..steps.div_ceil(EPISODE) {
         let (scene, team, objects, rules) = &worlds[episode % worlds.len()];
         let mut random = Seed::new(episode as u64, &["agreement"]);
@@ -235,7 +336,11 @@ fn the_simulator_and_the_state_machine_agree() {
         for step in 0..EPISODE.min(steps - episode * EPISODE) {
             let (agent, words) = both.random_act(&mut random);
             let words: Vec<&str> = words.iter().map(String::as_str).collect();
-            let (simulator, machine) = (both.ask(agent, &words), both.house.act(&words));
+            let simulator = both.ask(agent, &words);
+            let (happened, fails) = both.happen(agent);
+            events[0] += happened;
+            events[1] += usize::from(fails);
+            let machine = if fails { Err("it is made to fail") } else { both.house.act(&words) };
             let tell = |what: String| -> ! {
                 let log = log.join("\n");
                 panic!("{scene}, episode {episode}, step {step}: {}: {what}\nafter\n{log}", words.join(" "))
@@ -263,10 +368,14 @@ fn the_simulator_and_the_state_machine_agree() {
             }
         }
     }
-    println!("{steps} random acts, {lost} robots lost: the simulator and the state machine agree");
+    let [happened, failed] = events;
+    println!(
+        "{steps} random acts, {lost} robots lost, {happened} events, {failed} made to fail: the simulator and the state machine agree"
+    );
     for (action, [applied, refused]) in &counts {
         println!("{action:<16} applied {applied:>6}  refused {refused:>6}");
     }
+    assert!(happened > 0 && failed > 0, "nothing happened without the team: {happened} and {failed}");
     for action in actions_of(SKILLS) {
         let applied = counts.get(action).map_or(0, |c| c[0]);
         assert!(applied > 0, "{action} was never applied: the walk is too tame to test it");

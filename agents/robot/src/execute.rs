@@ -1,7 +1,7 @@
 //! Carrying out the robot's part of the team's plan: one step after the other, each behind its gates.
 
-use lamma_protocol::message::{Ack, Refusal, RefusalKind, Request, Step, Verdict};
-use lamma_protocol::{AgentId, Epoch, Frame, StepIndex};
+use lamma_protocol::message::{Ack, Gate, Refusal, RefusalKind, Request, Step, Verdict};
+use lamma_protocol::{AgentId, Awaits, Epoch, Frame, StepIndex};
 
 /// The steps of one epoch and how far they are.
 #[derive(Clone, Debug)]
@@ -11,12 +11,18 @@ pub(crate) struct Execution {
     steps: Vec<Step>,
     done: StepIndex,
     asked: Option<StepIndex>,
+    /// Of the first step that was not asked for: a gate that was closed in the last frame.
+    closed: Option<Gate>,
     refused: Option<Refusal>,
 }
 
 impl Execution {
     pub fn new(agent: AgentId, epoch: Epoch, steps: Vec<Step>) -> Self {
-        Execution { agent, epoch, steps, done: StepIndex(0), asked: None, refused: None }
+        Execution { agent, epoch, steps, done: StepIndex(0), asked: None, closed: None, refused: None }
+    }
+
+    pub fn epoch(&self) -> Epoch {
+        self.epoch
     }
 
     pub fn done(&self) -> StepIndex {
@@ -39,11 +45,29 @@ impl Execution {
         }
         self.done = self.done.max(frame.progress(self.agent));
         let step = self.steps.get(self.done.index())?;
-        if self.asked == Some(self.done) || !step.gates.iter().all(|gate| frame.open(*gate)) {
-            return None;
+        let closed = |step: &Step| step.gates.iter().find(|gate| !frame.open(**gate)).copied();
+        if self.asked != Some(self.done) {
+            self.closed = closed(step);
+            if self.closed.is_some() {
+                return None;
+            }
         }
-        self.asked = Some(self.done);
-        Some(self.request(step))
+        let next = self.steps.get(self.done.next().index());
+        self.closed = next.and_then(closed);
+        (self.asked.replace(self.done) != Some(self.done)).then(|| self.request(step))
+    }
+
+    /// Which frame there is something to do in. While an answer is awaited, that is the frame which opens the next
+    /// step's gate, if it has one that is closed: it comes no sooner than the answer is of use.
+    pub fn awaits(&self) -> Awaits {
+        match self.closed {
+            _ if self.finished() || self.refused.is_some() => Awaits::NoFrame,
+            Some(gate) => Awaits::Opening(gate),
+            None if self.asked == Some(self.done) => {
+                Awaits::Opening(Gate { agent: self.agent, done: self.done.next() })
+            }
+            None => Awaits::AnyFrame,
+        }
     }
 
     /// The request that is waiting for an answer, to be said again.
@@ -65,7 +89,7 @@ impl Execution {
             Verdict::Applied { .. } => self.done = self.done.next(),
             // Both pass by themselves: a frame opens the gate, or a directive brings the new epoch.
             Verdict::Refused(Refusal { kind: RefusalKind::TooEarly | RefusalKind::StaleEpoch, .. }) => {
-                self.asked = None;
+                (self.asked, self.closed) = (None, None);
                 return false;
             }
             Verdict::Refused(refusal) => self.refused = Some(refusal.clone()),

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use lamma_pddl::ast::Domain;
 use lamma_protocol::message::{Directive, Message, Order, Package, PackageReport, Report, Share, Step};
 use lamma_protocol::{
-    AgentId, Epoch, Frame, Input, JobId, Machine, Output, PackageId, Repeat, Revision, StepIndex, Tick, Topic,
+    AgentId, Awaits, Epoch, Frame, Input, JobId, Machine, Output, PackageId, Repeat, Revision, StepIndex,
+    Tick, Topic,
 };
 
 use crate::execute::Execution;
@@ -49,6 +50,8 @@ pub struct Robot {
     plans: Vec<PackageReport>,
     heard: Option<Revision>,
     answered: Option<Revision>,
+    /// What the last frame said of the team, if there was nothing to do in it: steps that come after it begin there.
+    seen: Vec<u64>,
     next_job: u64,
     /// When the last input came.
     now: Tick,
@@ -67,6 +70,7 @@ impl Robot {
             plans: Vec::new(),
             heard: None,
             answered: None,
+            seen: Vec::new(),
             next_job: 0,
             now: Tick(0),
             repeat: Repeat::default(),
@@ -135,6 +139,10 @@ impl Robot {
         if !matches!(self.phase, Phase::Executing(_)) {
             self.cancel_jobs();
             self.phase = Phase::Executing(Execution::new(self.config.id, self.epoch, steps));
+            let seen = std::mem::take(&mut self.seen);
+            if let Ok(frame) = Frame::new(&seen) {
+                self.frame(&frame);
+            }
         }
     }
 
@@ -148,7 +156,13 @@ impl Robot {
     }
 
     fn frame(&mut self, frame: &Frame<'_>) {
-        let Phase::Executing(execution) = &mut self.phase else { return };
+        let execution = match &mut self.phase {
+            Phase::Executing(execution) if execution.epoch() == frame.epoch() => execution,
+            _ => {
+                self.seen = frame.without_facts();
+                return;
+            }
+        };
         let before = execution.done();
         let request = execution.look(frame);
         let changed = execution.done() != before;
@@ -251,5 +265,13 @@ impl Machine for Robot {
 
     fn poll_timeout(&self) -> Option<Tick> {
         (!matches!(self.phase, Phase::Left)).then_some(self.repeat.due())
+    }
+
+    fn awaits(&self) -> Awaits {
+        match &self.phase {
+            Phase::Executing(execution) => execution.awaits(),
+            // Directives come first.
+            Phase::Idle | Phase::Planning { .. } | Phase::Left => Awaits::NoFrame,
+        }
     }
 }

@@ -4,15 +4,16 @@
 //! up here as a refusal, not as a wrong world.
 
 use std::collections::{BTreeSet, VecDeque};
+use std::sync::Arc;
 
 use lamma_pddl::Name;
 use lamma_pddl::ast::{Domain, Init, TypedName};
-use lamma_planner::GroundAct;
 use lamma_planner::interpreter::{Change, Interpreter, WorldState};
+use lamma_planner::{GroundAct, Travel};
 use lamma_protocol::frame::write_frame;
 use lamma_protocol::message::{Ack, Act, Grant, Message, Refusal, RefusalKind, Request, Verdict, Vocabulary};
 use lamma_protocol::{
-    AgentId, Epoch, FrameHeader, Input, Machine, Output, Repeat, Revision, StepIndex, Tick, Topic,
+    AgentId, Epoch, FrameHeader, Input, Machine, Output, Repeat, Revision, SaidToEach, StepIndex, Tick, Topic,
 };
 use thiserror::Error;
 
@@ -53,6 +54,8 @@ pub struct WorldConfig {
     pub step_ms: u64,
     /// What happens without the team.
     pub events: Vec<Event>,
+    /// How long going takes, where it takes its time.
+    pub travel: Option<Arc<Travel>>,
 }
 
 /// A world that cannot be.
@@ -72,7 +75,7 @@ pub struct Arbiter {
     version: u64,
     progress: Vec<StepIndex>,
     closed: Vec<StepIndex>,
-    acks: Vec<Option<(Ack, Repeat)>>,
+    acks: SaidToEach<Ack>,
     heard: Vec<Option<Revision>>,
     granted: Option<Revision>,
     requested: u64,
@@ -98,6 +101,7 @@ impl Arbiter {
     pub fn new(config: WorldConfig) -> Result<Self, ArbiterError> {
         let interpreter =
             Interpreter::new(&config.domain, &config.objects).map_err(|e| ArbiterError(e.to_string()))?;
+        let interpreter = interpreter.with_travel(config.travel);
         let state = interpreter.initial(&config.init).map_err(|e| ArbiterError(e.to_string()))?;
         let agents = config.agents.len();
         let mut arbiter = Arbiter {
@@ -111,7 +115,7 @@ impl Arbiter {
             version: 0,
             progress: vec![StepIndex(0); agents],
             closed: vec![StepIndex(0); agents],
-            acks: vec![None; agents],
+            acks: SaidToEach::nothing(agents),
             heard: vec![None; agents],
             granted: None,
             requested: 0,
@@ -160,7 +164,7 @@ impl Arbiter {
         if grant.epoch > self.epoch {
             self.epoch = grant.epoch;
             self.closed = std::mem::replace(&mut self.progress, vec![StepIndex(0); self.agents.len()]);
-            self.acks.fill(None);
+            self.acks.forget();
             self.under_way.fill(None);
             self.clock.new_epoch();
             self.changed();
@@ -190,13 +194,8 @@ impl Arbiter {
         if self.frame_repeat.take(self.now) {
             self.say_frame();
         }
-        for (agent, said) in (0..).map(AgentId).zip(&mut self.acks) {
-            if let Some((ack, repeat)) = said
-                && repeat.take(self.now)
-            {
-                self.outputs.push_back(Output::Publish(Topic::Ack(agent), Message::Ack(ack.clone())));
-            }
-        }
+        let acks = self.acks.due(self.now);
+        self.outputs.extend(acks.map(|(agent, ack)| Output::Publish(Topic::Ack(agent), Message::Ack(ack))));
     }
 
     /// What a lost robot held is put down, if the domain says how.
@@ -227,13 +226,11 @@ impl Arbiter {
     /// Judges a request and answers it.
     fn settle(&mut self, agent: AgentId, request: &Request) {
         let verdict = match self.judge(agent, request) {
-            Judgement::Repeat => self.acks[agent.index()].clone().map(|(ack, _)| ack),
+            Judgement::Repeat => self.acks.last(agent).cloned(),
             Judgement::Answer(verdict) => Some(Ack { epoch: request.epoch, step: request.step, verdict }),
         };
         if let Some(ack) = verdict {
-            let mut repeat = Repeat::default();
-            repeat.news(self.now);
-            self.acks[agent.index()] = Some((ack.clone(), repeat));
+            self.acks.news(agent, ack.clone(), self.now);
             self.outputs.push_back(Output::Publish(Topic::Ack(agent), Message::Ack(ack)));
         }
     }
@@ -307,7 +304,7 @@ impl Arbiter {
 
     /// Whether this very request got its final answer before.
     fn is_answered(&self, agent: AgentId, request: &Request) -> bool {
-        self.acks[agent.index()].as_ref().is_some_and(|(ack, _)| {
+        self.acks.last(agent).is_some_and(|ack| {
             let final_answer = match &ack.verdict {
                 Verdict::Applied { .. } => true,
                 Verdict::Refused(r) => {

@@ -1,21 +1,34 @@
 //! Compares the goals that the embedded default reads from a suite's sentences with the suite's own, without a
-//! run: `score_tasks [FILE.jsonl]`. It prints counts by category and cause only, no sentence.
+//! run: `score_tasks [FILE.jsonl]`. It prints counts by category and cause only, no sentence and no object.
+//!
+//! "Enough" is what a run needs: the suite's facts are among those read, or hold at the start. Where something is
+//! missing, it says of what kind, and what was read in its place.
 
 #[path = "../tests/judge/mod.rs"]
 #[allow(dead_code, reason = "only its facts are used here")]
 mod judge;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::time::Duration;
 
-use lamma_domains::goal::GoalEntry;
-use lamma_lm::{Answer, Offline, Request};
+use lamma_domains::goal::{Content, GoalEntry, PropertyValue};
+use lamma_domains::robots;
+use lamma_domains::world::ObjectSpec;
+use lamma_lm::{Answer, ObjectView, Offline, Request, RobotView};
 use serde_json::Value;
 
 type Failure = Box<dyn std::error::Error>;
 
 const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../domains/tasks/mat-thor.jsonl");
+
+#[derive(Default)]
+struct Tally {
+    tasks: usize,
+    enough: usize,
+    exact: usize,
+    causes: BTreeMap<String, usize>,
+}
 
 fn main() -> Result<(), Failure> {
     let file = std::env::args().nth(1).unwrap_or_else(|| FILE.to_owned());
@@ -23,45 +36,138 @@ fn main() -> Result<(), Failure> {
         Some(folder) => Offline::from_folder(Path::new(&folder))?,
         None => Offline::new()?,
     };
-    let mut counts: BTreeMap<String, BTreeMap<&str, usize>> = BTreeMap::new();
+    let mut tallies: BTreeMap<String, Tally> = BTreeMap::new();
     for line in std::fs::read_to_string(&file)?.lines().filter(|line| !line.trim().is_empty()) {
         let task: Value = serde_json::from_str(line)?;
-        let world = lamma_domains::world::setup(task["scene"].as_str().unwrap_or_default(), &[], None, 0)?;
+        let specs: Option<Vec<ObjectSpec>> = serde_json::from_value(task["objects"].clone())?;
+        let scene = task["scene"].as_str().unwrap_or_default();
+        let world = lamma_domains::world::setup(scene, &[], specs.as_deref(), 0)?;
         let objects = lamma_domains::view::views(&world, world.facts());
-        let facts = |entries: &[GoalEntry]| {
-            let mut found = Vec::new();
-            entries.iter().for_each(|entry| judge::facts(entry, &objects, &mut found));
-            judge::numbered(found)
-        };
         let goal: Vec<GoalEntry> = serde_json::from_value(task["goal"].clone())?;
-        let wanted = facts(&goal);
         let answer = offline.read(&Request {
             instruction: task["instruction"].as_str().unwrap_or_default().to_owned(),
             objects: objects.clone(),
-            robots: Vec::new(),
+            robots: team(&task)?,
             assume: false,
             deadline: Duration::from_secs(5),
         });
-        let cause = match answer {
-            Answer::Clarify(_) => "asks",
-            Answer::Understood(decomposition) => {
-                let lasting = decomposition.subtasks.iter().filter(|s| s.lasting);
-                let read: Vec<GoalEntry> = lasting.flat_map(|s| s.goal.clone()).collect();
-                let got = facts(&read);
-                let all = wanted.iter().all(|fact| got.contains(fact));
-                match wanted.iter().filter(|fact| got.contains(fact)).count() {
-                    _ if all && got.len() == wanted.len() => "the same goal",
-                    _ if all => "the goal and more",
-                    0 => "another goal",
-                    _ => "a part of the goal",
-                }
-            }
-        };
         let category = task["category"].as_str().unwrap_or("?").to_owned();
-        *counts.entry(category).or_default().entry(cause).or_default() += 1;
+        tally(tallies.entry(category).or_default(), &answer, &goal, &objects);
     }
-    for (category, causes) in counts {
-        println!("{category}: {causes:?}");
+    for (category, Tally { tasks, enough, exact, causes }) in tallies {
+        println!("{category}: enough for {enough} of {tasks}, the same goal for {exact}");
+        for (cause, times) in causes {
+            println!("  {times} × {cause}");
+        }
     }
     Ok(())
+}
+
+fn team(task: &Value) -> Result<Vec<RobotView>, Failure> {
+    let robots = robots::team(&serde_json::from_value::<Vec<robots::Member>>(task["team"].clone())?)?;
+    let view = |r: robots::Robot| RobotView { name: r.name, skills: r.skills, capacity_kg: r.capacity_kg };
+    Ok(robots.into_iter().map(view).collect())
+}
+
+fn tally(tally: &mut Tally, answer: &Answer, goal: &[GoalEntry], objects: &[ObjectView]) {
+    tally.tasks += 1;
+    let mut note = |cause: String| *tally.causes.entry(cause).or_default() += 1;
+    let decomposition = match answer {
+        Answer::Understood(decomposition) => decomposition,
+        Answer::Clarify(asks) => {
+            let about: BTreeSet<&str> = asks.not_understood.iter().map(|text| about(text)).collect();
+            return note(format!("asks: {}", about.into_iter().collect::<Vec<_>>().join(", ")));
+        }
+    };
+    let read: Vec<GoalEntry> =
+        decomposition.subtasks.iter().filter(|s| s.lasting).flat_map(|s| s.goal.clone()).collect();
+    let got = facts(&read, objects);
+    let open: Vec<GoalEntry> = goal.iter().filter(|entry| !holds_now(entry, objects)).cloned().collect();
+    let missing: Vec<String> = facts(&open, objects).into_iter().filter(|f| !got.contains(f)).collect();
+    let wanted = facts(goal, objects);
+    let more = got.iter().filter(|fact| !wanted.contains(fact)).count();
+    if missing.is_empty() {
+        tally.enough += 1;
+        tally.exact += usize::from(more == 0);
+        return;
+    }
+    let causes: BTreeSet<String> = missing.iter().map(|fact| cause(fact, &got)).collect();
+    let causes: Vec<String> = causes.into_iter().collect();
+    note(format!("lacks {} of {}: {}", missing.len(), wanted.len(), causes.join(", ")));
+}
+
+/// What kind of thing a question is about.
+fn about(text: &str) -> &'static str {
+    const ABOUT: [(&str, &str); 7] = [
+        ("I do not know what \"", "a noun or verb unknown"),
+        ("I do not know what to do", "no order found"),
+        ("there is no ", "something absent"),
+        ("it is not said where", "a place left out"),
+        ("it is not said what", "a thing left out"),
+        ("is forbidden, but", "a ban broken"),
+        ("cannot", "an impossible change"),
+    ];
+    ABOUT.iter().find(|(words, _)| text.contains(words)).map_or("something else", |(_, about)| about)
+}
+
+/// The kind of a missing fact, and what was read in its place.
+fn cause(fact: &str, got: &[String]) -> String {
+    let bare = |fact: &str| fact.split(" #").next().unwrap_or_default().to_owned();
+    let fact = bare(fact);
+    let others: Vec<String> = got.iter().map(|fact| bare(fact)).collect();
+    if others.contains(&fact) {
+        return "a second one of the same".to_owned();
+    }
+    if let Some((thing, place)) = fact.split_once('@') {
+        let elsewhere = others.iter().any(|o| o.split('@').next() == Some(thing) && o.contains('@'));
+        let filled = others.iter().any(|o| o.split('@').nth(1) == Some(place));
+        let known = others.iter().any(|o| o.starts_with(&format!("{thing}:")));
+        return match (elsewhere, filled, known) {
+            (true, ..) => "contains (it is put elsewhere)",
+            (_, true, _) => "contains (other things are put there)",
+            (_, _, true) => "contains (the thing only gets a state)",
+            _ => "contains (nothing like it)",
+        }
+        .to_owned();
+    }
+    let (thing, state) = fact.split_once(':').unwrap_or((&fact, ""));
+    let same_thing =
+        others.iter().any(|o| o.starts_with(&format!("{thing}:")) || o.starts_with(&format!("{thing}@")));
+    let same_state = others.iter().any(|o| o.ends_with(&format!(":{state}")));
+    let of = match (same_thing, same_state) {
+        (true, _) => "of a thing that something else is done to",
+        (_, true) => "of a thing left out",
+        _ => "nothing like it",
+    };
+    format!("{state} ({of})")
+}
+
+fn facts(entries: &[GoalEntry], objects: &[ObjectView]) -> Vec<String> {
+    let mut found = Vec::new();
+    entries.iter().for_each(|entry| judge::facts(entry, objects, &mut found));
+    // A basin is a sink.
+    let plain = |fact: String| fact.replace("SinkBasin", "Sink").replace("BathtubBasin", "Bathtub");
+    judge::numbered(found.into_iter().map(|(fact, of)| (plain(fact), of)).collect())
+}
+
+/// Whether an entry holds before anything is done, by one object or, if it says so, by all.
+fn holds_now(entry: &GoalEntry, objects: &[ObjectView]) -> bool {
+    let mut meant = objects.iter().filter(|o| o.kind == entry.object || o.name == entry.object);
+    if entry.all { meant.all(|o| is_so(entry, o, objects)) } else { meant.any(|o| is_so(entry, o, objects)) }
+}
+
+fn is_so(entry: &GoalEntry, object: &ObjectView, objects: &[ObjectView]) -> bool {
+    let stated = entry.is.iter().all(|(property, value)| match value {
+        PropertyValue::Flag(flag) => object.states.contains(property) == *flag,
+        PropertyValue::Word(word) => object.states.contains(&format!("{property}:{word}")),
+    });
+    let within: Vec<&ObjectView> =
+        objects.iter().filter(|o| o.parents.first() == Some(&object.name)).collect();
+    stated
+        && entry.contains.iter().all(|content| {
+            within.iter().any(|inner| match content {
+                Content::Named(kind) => inner.kind == *kind || inner.name == *kind,
+                Content::With(entry) => inner.kind == entry.object && is_so(entry, inner, objects),
+            })
+        })
 }

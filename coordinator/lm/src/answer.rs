@@ -30,6 +30,19 @@ fn yes() -> bool {
     true
 }
 
+/// What nobody may do on the way.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ban {
+    /// The skill, by its AI2-THOR name: `OpenObject`.
+    pub skill: String,
+    /// What it may not be done to: a type (each of them), or one object.
+    pub object: String,
+    /// Only with this: what may not be put into the object.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub item: Option<String>,
+}
+
 /// A reading of the instruction.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Decomposition {
@@ -41,6 +54,9 @@ pub struct Decomposition {
     /// From 0 to 1.
     #[serde(default)]
     pub confidence: f64,
+    /// What must not be done on the way.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bans: Vec<Ban>,
 }
 
 /// Why no reading is good enough to act on.

@@ -8,7 +8,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use thiserror::Error;
 
-use crate::{Answer, LanguageModel, LmError, Request, decode, prompt};
+use crate::{
+    Answer, LanguageModel, LmError, Request, Script, ScriptRequest, Wording, decode, prompt, script,
+};
 
 /// Tokens and requests used so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -65,6 +67,9 @@ pub trait Transport: Send {
     -> Result<Reply, TransportError>;
 }
 
+/// The name and the JSON schema of an answer.
+type Schema = (&'static str, Value);
+
 /// How firmly the answer's form is asked for; the ladder goes down when a server refuses a rung.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
@@ -81,6 +86,7 @@ pub struct ChatModel<T> {
     /// Parameters the server has refused.
     refused: Vec<&'static str>,
     repairs: u32,
+    wording: Wording,
     seed: u64,
     usage: Usage,
 }
@@ -94,20 +100,28 @@ impl<T: Transport> ChatModel<T> {
             form: Form::Schema,
             refused: Vec::new(),
             repairs,
+            wording: Wording::default(),
             seed,
             usage: Usage::default(),
         }
+    }
+
+    /// The same model, told and asked otherwise.
+    pub fn worded(mut self, wording: Wording) -> Self {
+        self.wording = wording;
+        self
     }
 
     /// One answer in the firmest form the server takes.
     fn ask(
         &mut self,
         messages: &[Value],
+        schema: &Schema,
         deadline: Instant,
         cancel: &AtomicBool,
     ) -> Result<Reply, TransportError> {
         loop {
-            let body = self.body(messages);
+            let body = self.body(messages, schema);
             let refusal = match self.transport.send(&body, deadline, cancel) {
                 Ok(reply) => return Ok(reply),
                 Err(TransportError::Status { status, body }) => (status, body),
@@ -119,7 +133,7 @@ impl<T: Transport> ChatModel<T> {
         }
     }
 
-    fn body(&self, messages: &[Value]) -> Value {
+    fn body(&self, messages: &[Value], schema: &Schema) -> Value {
         let mut body = json!({"model": self.model, "messages": messages});
         for (name, value) in
             [("temperature", json!(0)), ("seed", json!(self.seed % (1 << 31))), ("max_tokens", json!(4096))]
@@ -130,7 +144,7 @@ impl<T: Transport> ChatModel<T> {
         }
         match self.form {
             Form::Schema => {
-                let schema = json!({"name": "decomposition", "strict": false, "schema": prompt::schema()});
+                let schema = json!({"name": schema.0, "strict": false, "schema": schema.1});
                 body["response_format"] = json!({"type": "json_schema", "json_schema": schema});
             }
             Form::JsonObject => body["response_format"] = json!({"type": "json_object"}),
@@ -170,6 +184,39 @@ impl<T: Transport> ChatModel<T> {
         self.usage.completion_tokens += received;
     }
 
+    /// Asks until an answer can be read, and sends those that cannot back with what is wrong with them.
+    fn insist<A>(
+        &mut self,
+        first: &[Value],
+        schema: &Schema,
+        request: &Request,
+        cancel: &AtomicBool,
+        read: &dyn Fn(&str) -> Result<A, Vec<String>>,
+    ) -> Result<A, LmError> {
+        let deadline = Instant::now() + request.deadline.min(Duration::from_secs(24 * 3600));
+        let mut messages = first.to_vec();
+        let mut last = String::new();
+        for tries in 1..=self.repairs + 1 {
+            if cancel.load(Ordering::Relaxed) {
+                return Err(LmError::Cancelled);
+            }
+            let reply =
+                self.ask(&messages, schema, deadline, cancel).map_err(|error| public(error, request))?;
+            self.account(&messages, &reply);
+            let errors = match read(&reply.content) {
+                Ok(answer) => return Ok(answer),
+                Err(errors) => errors,
+            };
+            last = errors.join("; ");
+            if tries <= self.repairs {
+                // Only the last answer goes back: earlier ones add length and no information.
+                messages = first.to_vec();
+                messages.extend(prompt::repair(&reply.content, &errors));
+            }
+        }
+        Err(LmError::Unusable { tries: self.repairs + 1, last })
+    }
+
     /// The transport, for tests and records.
     pub fn transport(&self) -> &T {
         &self.transport
@@ -182,28 +229,24 @@ impl<T: Transport> LanguageModel for ChatModel<T> {
     }
 
     fn decompose(&mut self, request: &Request, cancel: &AtomicBool) -> Result<Answer, LmError> {
-        let deadline = Instant::now() + request.deadline.min(Duration::from_secs(24 * 3600));
-        let first = prompt::messages(request);
-        let mut messages = first.clone();
-        let mut last = String::new();
-        for tries in 1..=self.repairs + 1 {
-            if cancel.load(Ordering::Relaxed) {
-                return Err(LmError::Cancelled);
-            }
-            let reply = self.ask(&messages, deadline, cancel).map_err(|error| public(error, request))?;
-            self.account(&messages, &reply);
-            let errors = match decode::decode(&reply.content, request) {
-                Ok(answer) => return Ok(answer),
-                Err(errors) => errors,
-            };
-            last = errors.join("; ");
-            if tries <= self.repairs {
-                // Only the last answer goes back: earlier ones add length and no information.
-                messages.clone_from(&first);
-                messages.extend(prompt::repair(&reply.content, &errors));
-            }
-        }
-        Err(LmError::Unusable { tries: self.repairs + 1, last })
+        let first = prompt::messages(request, &self.wording);
+        let schema = ("decomposition", prompt::schema());
+        self.insist(&first, &schema, request, cancel, &|text: &str| decode::decode(text, request))
+    }
+
+    fn write(
+        &mut self,
+        asked: &ScriptRequest,
+        check: &dyn Fn(&Script) -> Vec<String>,
+        cancel: &AtomicBool,
+    ) -> Result<Script, LmError> {
+        let first = script::messages(asked, &self.wording);
+        let read = |text: &str| {
+            let script = script::decode(text, &asked.request)?;
+            let errors = check(&script);
+            if errors.is_empty() { Ok(script) } else { Err(errors) }
+        };
+        self.insist(&first, &("plan", script::schema()), &asked.request, cancel, &read)
     }
 
     fn usage(&self) -> Usage {

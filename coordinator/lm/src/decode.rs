@@ -64,14 +64,14 @@ pub fn decode(text: &str, request: &Request) -> Result<Answer, Vec<String>> {
     }
     if checker.errors.is_empty() {
         let Wire { subtasks, assumptions, .. } = wire;
-        Ok(Answer::Understood(Decomposition { subtasks, assumptions, confidence }))
+        Ok(Answer::Understood(Decomposition { subtasks, assumptions, confidence, bans: Vec::new() }))
     } else {
         Err(checker.errors)
     }
 }
 
 /// The JSON object in a text: the whole of it, a fenced block, or from the first to the last brace.
-fn json_part(text: &str) -> Option<&str> {
+pub(crate) fn json_part(text: &str) -> Option<&str> {
     let text = text.trim();
     let fenced = text.split("```").nth(1).map(|block| block.trim_start_matches("json").trim());
     let text = match fenced {
@@ -189,7 +189,7 @@ impl<'r> Checker<'r> {
 }
 
 /// `; did you mean "…"?`, or nothing when nothing is near.
-fn nearest(word: &str, known: &BTreeSet<&str>) -> String {
+pub(crate) fn nearest(word: &str, known: &BTreeSet<&str>) -> String {
     let letters: Vec<char> = word.to_lowercase().chars().take(64).collect();
     let best = known
         .iter()

@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use crate::chat::Usage;
-use crate::{Answer, LanguageModel, LmError, Offline, Request};
+use crate::{Answer, LanguageModel, LmError, Offline, Request, Script, ScriptRequest};
 
 /// A model with the embedded default behind it.
 pub struct Fallback<M> {
@@ -41,6 +41,16 @@ impl<M: LanguageModel> LanguageModel for Fallback<M> {
                 Answer::Clarify(clarification)
             }
         })
+    }
+
+    /// A plan of the model's own has nothing to fall back on.
+    fn write(
+        &mut self,
+        asked: &ScriptRequest,
+        check: &dyn Fn(&Script) -> Vec<String>,
+        cancel: &AtomicBool,
+    ) -> Result<Script, LmError> {
+        self.model.write(asked, check, cancel)
     }
 
     fn usage(&self) -> Usage {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::Request;
@@ -27,11 +28,25 @@ ENTRY is about one object: {\"object\":\"Fridge\",\"contains\":[\"Apple\",{\"obj
 - Never mention an object the instruction neither names nor implies.
 - If you cannot tell what is meant, answer {\"question\":\"…\"} instead.";
 
+/// Goes to the instructions where the model is to allocate, too.
+const ALLOCATE: &str = "\n- \"robots\" names the robots that do the sub-task, as few as can, by their skills and \
+what they lift. Every sub-task has at least one.";
+
+/// What a model is told and asked for; different ones to compare with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Wording {
+    /// Only the names of things and robots: neither where things are and what they afford, nor what actions need.
+    pub bare: bool,
+    /// The model says which robots do a sub-task.
+    pub allocate: bool,
+}
+
 /// The messages of the first try.
-pub fn messages(request: &Request) -> Vec<Value> {
+pub fn messages(request: &Request, wording: &Wording) -> Vec<Value> {
+    let allocate = if wording.allocate { ALLOCATE } else { "" };
     vec![
-        json!({"role": "system", "content": format!("{SYSTEM}\nProperties: {}.", properties())}),
-        json!({"role": "user", "content": user(request)}),
+        json!({"role": "system", "content": format!("{SYSTEM}{allocate}\nProperties: {}.", properties())}),
+        json!({"role": "user", "content": scene(request, wording)}),
     ]
 }
 
@@ -67,7 +82,11 @@ fn properties() -> String {
     parts.join(", ")
 }
 
-fn user(request: &Request) -> String {
+/// The instruction, the scene and the team.
+pub(crate) fn scene(request: &Request, wording: &Wording) -> String {
+    if wording.bare {
+        return bare(request);
+    }
     let mut text =
         format!("Instruction: {}\n\nObjects (name; where; what holds now):\n", request.instruction);
     for object in &request.objects {
@@ -91,6 +110,18 @@ fn user(request: &Request) -> String {
     text.push_str("\nTeam:\n");
     for robot in &request.robots {
         let _ = writeln!(text, "{}: {}; lifts {} kg", robot.name, robot.skills.join(", "), robot.capacity_kg);
+    }
+    text
+}
+
+/// The names alone.
+fn bare(request: &Request) -> String {
+    let list = |names: Vec<&str>| names.join(", ");
+    let mut text = format!("Instruction: {}\n\nObjects: ", request.instruction);
+    text.push_str(&list(request.objects.iter().map(|o| o.name.as_str()).collect()));
+    text.push_str("\n\nTeam:\n");
+    for robot in &request.robots {
+        let _ = writeln!(text, "{}: {}", robot.name, robot.skills.join(", "));
     }
     text
 }

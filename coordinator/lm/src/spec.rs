@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::cassette::{Record, Replay};
 use crate::chat::ChatModel;
 use crate::http::Http;
-use crate::{Fallback, LanguageModel, LmError, Offline};
+use crate::{Fallback, LanguageModel, LmError, Offline, Wording};
 
 /// Settings from flags; what is missing is looked up in the environment.
 #[derive(Clone, Debug)]
@@ -24,6 +24,10 @@ pub struct Options {
     pub seed: u64,
     /// A file that adds to the embedded lexicon.
     pub lexicon: Option<PathBuf>,
+    /// What a chat model is told and asked for.
+    pub wording: Wording,
+    /// Whether the embedded default steps in when a model fails.
+    pub fallback: bool,
 }
 
 impl Default for Options {
@@ -36,6 +40,8 @@ impl Default for Options {
             repairs: 2,
             seed: 0,
             lexicon: None,
+            wording: Wording::default(),
+            fallback: true,
         }
     }
 }
@@ -47,12 +53,12 @@ pub fn from_spec(spec: &str, options: &Options) -> Result<Box<dyn LanguageModel>
     let offline = offline(options)?;
     match spec.split_once(':') {
         None if spec == "offline" => Ok(Box::new(offline)),
-        None if spec == "openai" => Ok(Box::new(Fallback::new(chat(http(options)?, options)?, offline))),
+        None if spec == "openai" => Ok(backed(chat(http(options)?, options)?, offline, options)),
         Some(("record", file)) if !file.is_empty() => {
             let record = Record::new(http(options)?, Path::new(file)).map_err(|error| {
                 LmError::Configuration(format!("--lm record: cannot write {file}: {error}"))
             })?;
-            Ok(Box::new(Fallback::new(chat(record, options)?, offline)))
+            Ok(backed(chat(record, options)?, offline, options))
         }
         Some(("replay", file)) if !file.is_empty() => {
             let replay = Replay::read(Path::new(file))
@@ -60,12 +66,21 @@ pub fn from_spec(spec: &str, options: &Options) -> Result<Box<dyn LanguageModel>
 
             let recorded = replay.model().map(str::to_owned);
             let options = Options { model: options.model.clone().or(recorded), ..options.clone() };
-            Ok(Box::new(Fallback::new(chat(replay, &options)?, offline)))
+            Ok(backed(chat(replay, &options)?, offline, &options))
         }
         _ => Err(LmError::Configuration(format!(
             "--lm {spec:?} is not known; give offline, openai, record:FILE or replay:FILE"
         ))),
     }
+}
+
+/// The model, with the embedded default behind it where that is wished.
+fn backed<T: crate::chat::Transport + 'static>(
+    model: ChatModel<T>,
+    offline: Offline,
+    options: &Options,
+) -> Box<dyn LanguageModel> {
+    if options.fallback { Box::new(Fallback::new(model, offline)) } else { Box::new(model) }
 }
 
 fn offline(options: &Options) -> Result<Offline, LmError> {
@@ -105,5 +120,5 @@ fn chat<T: crate::chat::Transport>(transport: T, options: &Options) -> Result<Ch
     let model = options.model.clone().or_else(|| variable("LAMMA_LM_MODEL")).ok_or_else(|| {
         LmError::Configuration("no model is named: set LAMMA_LM_MODEL or give the model's name".to_owned())
     })?;
-    Ok(ChatModel::new(transport, model, options.repairs, options.seed))
+    Ok(ChatModel::new(transport, model, options.repairs, options.seed).worded(options.wording))
 }

@@ -25,7 +25,16 @@ struct Search<'a> {
     nodes: u64,
     /// Whether less work for the same makespan is looked for, too.
     ties: bool,
+    /// For each place in the order: whether the piece is like the one before it.
+    alike: Vec<bool>,
+    /// Where nothing waits: places and ends of all members that were reached, with the least work that took.
+    reached: BTreeMap<(usize, Vec<u64>), u64>,
+    unordered: bool,
 }
+
+/// So many ends of all members are remembered, and none where fewer pieces than that are left.
+const REMEMBERED: usize = 300_000;
+const LEFT: usize = 4;
 
 /// Nodes for looking for less work.
 const TIES: u64 = 100_000;
@@ -34,9 +43,13 @@ const TIES: u64 = 100_000;
 /// bound of it.
 pub(super) fn search(work: &[Work], start: Vec<usize>, bound: u64, nodes: u64) -> (Vec<usize>, bool) {
     let mut order: Vec<usize> = (0..work.len()).collect();
-    if work.iter().all(|w| w.after.is_empty()) {
-        order.sort_by_key(|&i| std::cmp::Reverse(work[i].cost.values().min().copied().unwrap_or(0)));
+    let unordered = work.iter().all(|w| w.after.is_empty());
+    if unordered {
+        let size = |i: usize| std::cmp::Reverse(work[i].cost.values().min().copied().unwrap_or(0));
+        order.sort_by(|&a, &b| size(a).cmp(&size(b)).then_with(|| work[a].cost.cmp(&work[b].cost)));
     }
+    let like_before = |at: usize| unordered && at > 0 && work[order[at]].cost == work[order[at - 1]].cost;
+    let alike = (0..order.len()).map(like_before).collect();
     let share = shares(work).0;
     let weighted = |i: usize| work[i].cost.iter().map(|(m, &steps)| steps * share[m]).min().unwrap_or(0);
     let least = |i: usize| work[i].cost.values().min().copied().unwrap_or(0);
@@ -67,6 +80,9 @@ pub(super) fn search(work: &[Work], start: Vec<usize>, bound: u64, nodes: u64) -
         bound,
         nodes,
         ties: false,
+        alike,
+        reached: BTreeMap::new(),
+        unordered,
     };
     let complete = search.score.0 <= bound || search.descend(0, 0, 0);
     let proved = complete || search.score.0 <= bound;
@@ -75,6 +91,7 @@ pub(super) fn search(work: &[Work], start: Vec<usize>, bound: u64, nodes: u64) -
     }
     search.nodes = TIES;
     search.ties = true;
+    search.reached.clear();
     search.descend(0, 0, 0);
     (search.best, proved)
 }
@@ -94,9 +111,14 @@ impl Search<'_> {
             return false;
         }
         self.nodes -= 1;
+        if self.was_here(at, total) {
+            return true;
+        }
         let piece = self.order[at];
+        // Pieces that are alike go to members in roster order: which of them goes where makes no difference.
+        let first = if self.alike[at] { self.members[self.order[at - 1]] } else { 0 };
         let mut choices: Vec<(u64, u64, usize)> = Vec::with_capacity(self.work[piece].cost.len());
-        for (&member, &steps) in &self.work[piece].cost {
+        for (&member, &steps) in self.work[piece].cost.range(first..) {
             // Of equal members that are equally far, one is enough.
             let twin = |&(_, _, m): &(u64, u64, usize)| {
                 self.kind[m] == self.kind[member] && self.free[m] == self.free[member]
@@ -122,6 +144,29 @@ impl Search<'_> {
             self.free[member] = before;
         }
         complete
+    }
+
+    /// Whether the members were as busy before at this place, with no more work: then nothing new lies ahead.
+    fn was_here(&mut self, at: usize, total: u64) -> bool {
+        // What is like the piece before it may go to fewer members than it might have before.
+        if !self.unordered || self.alike[at] || at + LEFT > self.order.len() {
+            return false;
+        }
+        let key = (at, self.free.clone());
+        match self.reached.get_mut(&key) {
+            Some(least) if *least <= total => true,
+            Some(least) => {
+                *least = total;
+                // Less work matters only where ties are looked at.
+                !self.ties
+            }
+            None => {
+                if self.reached.len() < REMEMBERED {
+                    self.reached.insert(key, total);
+                }
+                false
+            }
+        }
     }
 
     /// Whether the rest may still lead to something better.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::method::{MethodArg, Without};
 use crate::world::Privacy;
 
 mod member;
@@ -168,6 +169,9 @@ pub struct CommonArgs {
     /// How long the simulator takes for each action, in milliseconds: to watch, or to interfere.
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(..=60_000))]
     pub step_ms: u64,
+    /// Going takes a step for each quarter of a metre on the way, instead of one step in all.
+    #[arg(long)]
+    pub travel: bool,
     /// A script of what happens without the team (JSON Lines): `{"robot": "robot1", "before_step": 3, "fail": true}`,
     /// or instead of `fail`: `"move": "Apple_1", "to": "DiningTable_1"`, or `"close": "Fridge_1"`.
     #[arg(long, value_name = "FILE")]
@@ -205,6 +209,17 @@ pub enum BusArg {
     Inproc,
     /// Zenoh, between hosts.
     Zenoh,
+}
+
+impl BusArg {
+    /// As it is written on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            BusArg::Iceoryx2 => "iceoryx2",
+            BusArg::Inproc => "inproc",
+            BusArg::Zenoh => "zenoh",
+        }
+    }
 }
 
 /// Output formats.
@@ -292,6 +307,14 @@ pub struct BenchArgs {
     /// Write results.json, results.csv (the same for the same seed) and timings.json to this folder.
     #[arg(long)]
     pub out: Option<PathBuf>,
+    /// The method: LaMMA-P, or one to compare it with, which needs a chat model (--lm).
+    #[arg(long, value_enum, default_value = "lamma-p")]
+    pub method: MethodArg,
+    /// Run the suite again without some of LaMMA-P's modules, and print the table of the ablation: P (precondition
+    /// identifier), V (PDDL validator), G (problem generator), D (decomposition). `P,V` is two runs, `PV` one
+    /// without both.
+    #[arg(long, value_delimiter = ',', value_name = "MODULES")]
+    pub without: Vec<Without>,
     /// Plan for the tasks' own goals instead of understanding their sentences.
     #[arg(long)]
     pub goals_given: bool,
@@ -312,6 +335,9 @@ pub struct ScaleArgs {
     /// The sizes of the teams, separated by commas.
     #[arg(long, value_delimiter = ',', default_value = "2,16,64", value_parser = clap::value_parser!(u16).range(1..))]
     pub agents: Vec<u16>,
+    /// The transport between the processes.
+    #[arg(long, value_enum, default_value = "iceoryx2")]
+    pub bus: BusArg,
     /// Host the robots in so many processes instead of one each.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub workers: Option<u16>,
@@ -341,15 +367,9 @@ pub struct RallyArgs {
     /// What it is.
     #[arg(long, value_enum)]
     pub role: RallyRole,
-    /// The folder of the run.
-    #[arg(long)]
-    pub run_dir: PathBuf,
-    /// The shared memory of the run.
-    #[arg(long)]
-    pub scope: lamma_bus::iceoryx::Scope,
-    /// The first robot that it hosts, for robots.
-    #[arg(long, default_value_t = 0)]
-    pub agent: u16,
+    /// As every process; a process of many robots is called by the first of them.
+    #[command(flatten)]
+    pub child: ChildArgs,
     /// When the coordinator gives up.
     #[arg(long, default_value_t = 120_000)]
     pub limit_ms: u64,

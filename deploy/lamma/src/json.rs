@@ -15,15 +15,10 @@ pub fn run(launched: &Launched, common: &CommonArgs) -> Value {
 /// As [`run`], where there are no common options.
 pub fn run_of(launched: &Launched, bus: BusArg, seed: u64, lm: &str) -> Value {
     let mut value = serde_json::to_value(&launched.result).unwrap_or_default();
-    let bus = match bus {
-        BusArg::Iceoryx2 => "iceoryx2",
-        BusArg::Inproc => "inproc",
-        BusArg::Zenoh => "zenoh",
-    };
     if let Value::Object(object) = &mut value {
         object.insert("run_dir".into(), json!(launched.folder));
         object.insert("seed".into(), json!(seed));
-        object.insert("bus".into(), json!(bus));
+        object.insert("bus".into(), json!(bus.name()));
         object.insert("lm".into(), json!(lm));
         object.insert("processes".into(), json!(launched.processes));
         object.insert("elapsed_ms".into(), json!(launched.elapsed.as_secs_f64() * 1e3));

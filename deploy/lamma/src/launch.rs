@@ -11,11 +11,15 @@ use lamma_protocol::{AgentId, Envelope, Message, Node, Revision, Topic};
 use serde::Serialize;
 
 use crate::cli::BusArg;
+#[cfg(feature = "zenoh")]
+use crate::cli::Format;
 use crate::error::Failure;
 use crate::host::{Host, InprocHost, ProcessHost};
 use crate::spec::RunSpec;
 use crate::watch::Watcher;
 use crate::world::World;
+#[cfg(feature = "zenoh")]
+use crate::{commands::run::lines, exit, json, out::say, show};
 
 /// How long the team may take beyond its own limit before it counts as hung.
 const GRACE: Duration = Duration::from_secs(10);
@@ -89,6 +93,30 @@ pub fn supervise(
     let result = watched?;
     ended?;
     Ok((result, processes))
+}
+
+/// Starts a run whose processes are not all on this host, watches over it, writes and prints its outcome, and gives
+/// the exit code.
+#[cfg(feature = "zenoh")]
+pub fn see_through(
+    start: impl FnOnce() -> Result<Box<dyn Host>, Failure>,
+    spec: &RunSpec,
+    bus: BusArg,
+    folder: &Path,
+    format: Format,
+) -> Result<u8, Failure> {
+    let started = Instant::now();
+    let (result, processes) = supervise(start()?, limit(spec), lines(format).as_mut())?;
+    let launched = Launched { result, processes, folder: folder.to_path_buf(), elapsed: started.elapsed() };
+    let json = json::run_of(&launched, bus, spec.seed, &spec.lm.spec);
+    let file = launched.folder.join("result.json");
+    let text = serde_json::to_string_pretty(&json).map_err(Failure::fault)?;
+    std::fs::write(&file, text).map_err(|e| Failure::io("write", &file, &e))?;
+    match format {
+        Format::Json => say(serde_json::to_string(&json).map_err(Failure::fault)?),
+        Format::Text => say(show::result(&launched.result).trim_end()),
+    }
+    Ok(exit::of(launched.result.outcome))
 }
 
 /// How long a run may take in all.

@@ -1,5 +1,6 @@
 //! The `lamma` command: launcher, supervisor, and every process of a team in one binary.
 
+mod ablation;
 mod batch;
 mod cli;
 mod commands;
@@ -12,6 +13,7 @@ mod host;
 mod json;
 mod launch;
 mod meeting;
+mod method;
 mod out;
 mod process;
 mod process_host;
@@ -103,7 +105,8 @@ fn report(failure: &Failure, format: Format) -> u8 {
 
 fn log_to_stderr(verbose: u8) {
     let default = match verbose {
-        0 => "warn",
+        // Zenoh warns of every client behind a socket without a name, which are all.
+        0 => "warn,zenoh_link_unixsock_stream=error",
         1 => "info",
         2 => "debug",
         _ => "trace",

@@ -3,14 +3,14 @@
 use std::ffi::OsString;
 
 use lamma_bus::Bus;
-use lamma_bus::iceoryx::Run;
+use lamma_bus::iceoryx::{Run, Scope};
 #[cfg(feature = "zenoh")]
 use lamma_bus::zenoh::{Endpoint, Join, Router, RunId};
 use lamma_protocol::Node;
 
 use crate::cli::BusArg;
 use crate::error::Failure;
-use crate::spec::RunSpec;
+use crate::process::join::Place;
 
 /// See the module. Dropping it removes what it made.
 pub enum Meeting {
@@ -23,14 +23,14 @@ pub enum Meeting {
 
 impl Meeting {
     /// Makes the place.
-    pub fn create(bus: BusArg, spec: &RunSpec) -> Result<Meeting, Failure> {
-        let agents = spec.team_size();
+    pub fn create(bus: BusArg, place: Place<'_>, per_seat: u16) -> Result<Meeting, Failure> {
+        let agents = place.agents;
         match bus {
             #[cfg(feature = "zenoh")]
             BusArg::Zenoh => {
                 let router = Router::local().map_err(Failure::fault)?;
                 let join = Join {
-                    run: RunId::lossy(&spec.id),
+                    run: RunId::lossy(place.run),
                     agents,
                     connect: router.endpoint(),
                     identity: None,
@@ -41,8 +41,17 @@ impl Meeting {
             #[cfg(not(feature = "zenoh"))]
             BusArg::Zenoh => Err(Failure::bad_input(crate::process::join::NOT_BUILT)),
             BusArg::Iceoryx2 | BusArg::Inproc => {
-                Run::create_seated(agents, spec.per_seat()).map(Meeting::Memory).map_err(Failure::fault)
+                Run::create_seated(agents, per_seat).map(Meeting::Memory).map_err(Failure::fault)
             }
+        }
+    }
+
+    /// Under what the files of the place are found.
+    pub fn scope(&self) -> Option<&Scope> {
+        match self {
+            Meeting::Memory(run) => Some(run.scope()),
+            #[cfg(feature = "zenoh")]
+            Meeting::Router(router, _) => router.scope(),
         }
     }
 

@@ -14,6 +14,7 @@ use crate::error::Failure;
 use crate::host::{Death, Host};
 use crate::launch::{ProcessRecord, agents};
 use crate::meeting::Meeting;
+use crate::process::join::Place;
 use crate::spec::RunSpec;
 use crate::supervise::{Event, Patience, Spec, Supervisor, log_file};
 
@@ -58,7 +59,7 @@ impl ProcessHost {
 
     fn with_authorities(spec: &Arc<RunSpec>, bus: BusArg, folder: &Path) -> Result<Self, Failure> {
         lamma_bus::process::raise_open_files_limit().map_err(Failure::fault)?;
-        let meeting = Meeting::create(bus, spec)?;
+        let meeting = Meeting::create(bus, Place::of(spec), spec.per_seat())?;
         let bus = meeting.open(Node::Supervisor)?;
         let (supervisor, events) = Supervisor::start(Some(bus.waker())).map_err(Failure::fault)?;
         let mut host = ProcessHost {

@@ -54,6 +54,9 @@ pub fn write(file: &Path, tasks: &[Task]) -> Result<u8, Failure> {
 
 /// The shortest schedule found for the task's goal, and the bound that was proved.
 fn reference(task: &Task) -> Result<Reference, String> {
+    if task.rules.travel {
+        return Err("going takes its time in it, and schedules are worked out in unit steps".into());
+    }
     let (world, goal) = task.world(0).map_err(|e| e.to_string())?;
     let team = lamma_coordinator::house::team(&world);
     let available: Vec<usize> = (0..team.members.len()).collect();
@@ -62,7 +65,7 @@ fn reference(task: &Task) -> Result<Reference, String> {
     let floor = joint.floor().ok_or("the goal is out of the team's reach")?;
     let limits = MakespanLimits { conflicts: CONFLICTS, size: SIZE, ..MakespanLimits::default() };
     let never = AtomicBool::new(false);
-    let found = joint.shortest(floor, None, &limits, &never).ok_or("the goal is out of the team's reach")?;
+    let found = joint.shortest(&[], floor, None, &limits, &never).ok_or("the goal is out of the team's reach")?;
     let bound = found.lower_bound.unwrap_or(floor);
     if let Some(schedule) = found.schedule {
         let steps = schedule.operators().count() as u32;
@@ -76,7 +79,7 @@ fn reference(task: &Task) -> Result<Reference, String> {
         Outcome::Found(plan) => plan.acts.len() as u32,
         other => return Err(format!("no schedule was found: {other:?}")),
     };
-    let down = joint.shortest(bound, Some(first + 1), &limits, &never);
+    let down = joint.shortest(&[], bound, Some(first + 1), &limits, &never);
     let schedule = down.as_ref().and_then(|d| d.schedule.as_ref());
     match schedule {
         Some(s) => Ok(Reference {

@@ -33,14 +33,11 @@ mod network {
     use lamma_protocol::Node;
 
     use super::{CoordinatorArgs, Failure, Parts, RunSpec};
-    use crate::cli::{BusArg, Format};
-    use crate::commands::run::lines;
+    use crate::cli::BusArg;
     use crate::host::{Death, Host};
-    use crate::launch::{Launched, ProcessRecord, limit, supervise};
-    use crate::out::say;
-    use crate::process::join::{behind_faults, network};
+    use crate::launch::{ProcessRecord, see_through};
+    use crate::process::join::{Place, behind_faults, network};
     use crate::supervise::{Event, Patience, Supervisor};
-    use crate::{exit, json, show};
 
     /// How long the others have to hear that the run is over.
     const FAREWELL: Duration = Duration::from_secs(3);
@@ -56,20 +53,9 @@ mod network {
                 "without a launcher a coordinator needs --bus zenoh; see `lamma run`",
             ));
         }
-        let started = Instant::now();
-        let host = RemoteHost::start(args, spec, parts)?;
-        let (result, processes) = supervise(Box::new(host), limit(spec), lines(args.format).as_mut())?;
-        let folder = args.child.run_dir.clone();
-        let launched = Launched { result, processes, folder, elapsed: started.elapsed() };
-        let json = json::run_of(&launched, BusArg::Zenoh, spec.seed, &spec.lm.spec);
-        let file = launched.folder.join("result.json");
-        let text = serde_json::to_string_pretty(&json).map_err(Failure::fault)?;
-        std::fs::write(&file, text).map_err(|e| Failure::io("write", &file, &e))?;
-        match args.format {
-            Format::Json => say(serde_json::to_string(&json).map_err(Failure::fault)?),
-            Format::Text => say(show::result(&launched.result).trim_end()),
-        }
-        Ok(exit::of(launched.result.outcome))
+        let start =
+            || -> Result<Box<dyn Host>, Failure> { Ok(Box::new(RemoteHost::start(args, spec, parts)?)) };
+        see_through(start, spec, BusArg::Zenoh, &args.child.run_dir, args.format)
     }
 
     /// See the module above.
@@ -90,8 +76,8 @@ mod network {
             spec: &RunSpec,
             parts: Parts<Coordinator, CoordinatorJob, CoordinatorDone>,
         ) -> Result<Self, Failure> {
-            let bus = network::open(&args.child.network, spec, Node::Supervisor)?;
-            let own = network::open(&args.child.network, spec, Node::Coordinator)?;
+            let open = |node| network::open(&args.child.network, Place::of(spec), node);
+            let (bus, own) = (open(Node::Supervisor)?, open(Node::Coordinator)?);
             let mut own = behind_faults(own, spec)?;
             let (supervisor, events) = Supervisor::start(Some(bus.waker())).map_err(Failure::fault)?;
             let stop = Stop::default();

@@ -7,9 +7,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use lamma_bus::faulty::Plan;
-use lamma_coordinator::Patience;
 use lamma_coordinator::decompose::Instruction;
+use lamma_coordinator::{Method, Patience};
 use lamma_domains::goal::GoalEntry;
+use lamma_lm::Wording;
 use serde::{Deserialize, Serialize};
 
 use crate::cli::AllocatorArg;
@@ -26,10 +27,13 @@ pub struct RunSpec {
     pub seed: u64,
     /// What it is about.
     pub source: WorldSource,
-    /// Best known makespan and steps.
-    pub reference: Option<(f64, usize)>,
+    /// Best known makespan and the robot-steps it needs.
+    pub reference: Option<(f64, f64)>,
     /// Who decides which robot gets a sub-task.
     pub allocator: AllocatorArg,
+    /// The way from the instruction to a plan.
+    #[serde(default)]
+    pub method: Method,
     /// Stop when the plan is combined.
     pub solve_only: bool,
     /// The language model.
@@ -85,6 +89,15 @@ pub struct LmSpec {
     /// A file that adds to the embedded lexicon.
     #[serde(default)]
     pub lexicon: Option<PathBuf>,
+    /// What a chat model is told and asked for.
+    #[serde(default)]
+    pub wording: Wording,
+    /// Its first answer is taken; none is sent back for repair.
+    #[serde(default)]
+    pub unchecked: bool,
+    /// The embedded default does not step in for it.
+    #[serde(default)]
+    pub alone: bool,
 }
 
 /// The host of the coordinator and the simulator.

@@ -19,6 +19,8 @@ pub struct Suite {
     pub notes: Vec<String>,
     /// Whether some tasks are set aside, so that the table tells the others apart.
     pub imported: bool,
+    /// Whether the tasks' own goals are planned for.
+    pub goals_given: bool,
 }
 
 /// A task of a suite.
@@ -44,6 +46,11 @@ impl Suite {
 
 /// Reads what the arguments name.
 pub fn read(args: &BenchArgs) -> Result<Suite, Failure> {
+    let suite = named(args)?;
+    Ok(Suite { goals_given: args.goals_given, ..suite })
+}
+
+fn named(args: &BenchArgs) -> Result<Suite, Failure> {
     match (&args.tasks, &args.mat_thor, args.generated) {
         (Some(file), ..) => own(file),
         (None, Some(folder), _) => mat_thor(folder, args.robots.as_deref()),
@@ -62,7 +69,7 @@ fn generated(count: usize, seed: u64) -> Result<Suite, Failure> {
         entries.extend(tasks.into_iter().map(Entry::of));
     }
     let name = format!("{count} generated tasks in each floor plan");
-    Ok(Suite { name, entries, notes: Vec::new(), imported: false })
+    Ok(Suite { name, entries, notes: Vec::new(), imported: false, goals_given: false })
 }
 
 impl Entry {
@@ -94,6 +101,7 @@ fn own(file: &Path) -> Result<Suite, Failure> {
         entries: tasks.into_iter().map(Entry::of).collect(),
         notes: Vec::new(),
         imported: false,
+        goals_given: false,
     })
 }
 
@@ -110,8 +118,13 @@ fn mat_thor(folder: &Path, robots: Option<&Path>) -> Result<Suite, Failure> {
     if files.is_empty() {
         return Err(Failure::bad_input(format!("{} has no .json file", folder.display())));
     }
-    let mut suite =
-        Suite { name: folder.display().to_string(), entries: Vec::new(), notes: Vec::new(), imported: true };
+    let mut suite = Suite {
+        name: folder.display().to_string(),
+        entries: Vec::new(),
+        notes: Vec::new(),
+        imported: true,
+        goals_given: false,
+    };
     for file in files {
         let name = file.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         let found = import(&name, &read_text(&file)?, "mat-thor", &robots);

@@ -14,12 +14,18 @@ use crate::suite::Suite;
 pub struct Row {
     /// The category.
     pub name: String,
-    n: usize,
-    sr: f64,
-    exe: f64,
-    gcr: f64,
-    ru: Option<f64>,
-    eff: Option<f64>,
+    /// How many tasks.
+    pub n: usize,
+    /// The paper's metrics.
+    pub sr: f64,
+    /// See [`Row::sr`].
+    pub exe: f64,
+    /// See [`Row::sr`].
+    pub gcr: f64,
+    /// See [`Row::sr`]; over successes.
+    pub ru: Option<f64>,
+    /// See [`Row::sr`]; over successes.
+    pub eff: Option<f64>,
     /// Makespan / proved lower bound, over successes.
     ratio: Option<f64>,
     /// Share of the successes whose makespan is the proved lower bound.
@@ -41,8 +47,14 @@ pub fn rows(suite: &Suite, finished: &[Finished]) -> Vec<Row> {
             let kept: Vec<&Finished> = tasks.iter().copied().filter(kept).collect();
             rows.push(Row::of(&format!("{name}, goal agrees"), &kept));
         }
-        let kept: Vec<&Finished> = all.into_iter().filter(kept).collect();
-        rows.push(Row::of("all, goal agrees", &kept));
+        let agreeing: Vec<&Finished> = all.iter().copied().filter(kept).collect();
+        rows.push(Row::of("all, goal agrees", &agreeing));
+    }
+    // With their own goals given, those that are not reached and not proved out of reach are failures.
+    if suite.imported && suite.goals_given {
+        let reachable: Vec<&Finished> =
+            all.into_iter().filter(|f| f.result.outcome != OutcomeKind::Infeasible).collect();
+        rows.push(Row::of("all, not proved out of reach", &reachable));
     }
     rows
 }
@@ -140,7 +152,10 @@ pub fn text(name: &str, rows: &[Row]) -> String {
 }
 
 /// What RU and Eff were measured against.
-pub fn references(suite: &Suite, n: usize) -> String {
+pub fn references(suite: &Suite, n: usize, travel: bool) -> String {
+    if travel {
+        return "RU and Eff: against the run's own first plan (--travel: the references of files are in unit steps)".into();
+    }
     let known = || suite.entries.iter().filter_map(|e| e.task.reference);
     let tight = known().filter(|r| r.makespan == r.lower_bound).count();
     format!(

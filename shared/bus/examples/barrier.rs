@@ -1,6 +1,6 @@
 //! How long it takes until all robots of a team have met, beside the bare transport.
 //!
-//! `cargo run --release -p lamma-bus --example barrier [sizes] [rounds]`, such as `2,16,64 400`
+//! `cargo run --release -p lamma-bus --example barrier [sizes] [rounds]`, such as `2,16,64,256,1000`
 //!
 //! - *ours*: a simulator publishes a frame; every robot, a process each, wakes, reads it in place and
 //!   publishes a `Request`; the simulator sleeps on its bell until it has all of them.
@@ -11,20 +11,17 @@
 //! busy for both.
 #![expect(clippy::unwrap_used, reason = "an example that fails says where")]
 
-use std::collections::BTreeSet;
-use std::io::BufRead;
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+mod common;
 
-use iceoryx2::port::listener::Listener;
-use iceoryx2::port::notifier::Notifier;
-use iceoryx2::prelude::*;
+use std::time::Duration;
+
+use common::{Children, RawEvents, quantile, raw_node, time, until_let_go};
 use lamma_bus::iceoryx::{Endpoint, Run, Scope};
-use lamma_bus::process::{raise_open_files_limit, tie_to_parent};
+use lamma_bus::process::raise_open_files_limit;
 use lamma_bus::{Bus, Received};
 use lamma_protocol::message::{Act, Request};
 use lamma_protocol::{
-    AgentId, Envelope, Epoch, FrameHeader, Message, Node as Member, Revision, StepIndex, Topic, frame,
+    AgentId, Envelope, Epoch, FrameHeader, Message, Node, Revision, StepIndex, Topic, frame,
 };
 
 /// Cycles of one kind before the other has its turn.
@@ -47,45 +44,6 @@ fn main() {
     }
 }
 
-/// The bare transport of one process: what wakes it, and what it wakes.
-struct Raw {
-    bell: Listener<ipc::Service>,
-    ring: Notifier<ipc::Service>,
-    _node: Node<ipc::Service>,
-}
-
-impl Raw {
-    /// `names`: of the service that it hears, and of the one that it rings.
-    fn new(scope: &Scope, names: [&str; 2]) -> Raw {
-        let mut config = Config::default();
-        config.global.set_root_path(&Path::new(scope.root().to_str().unwrap().as_bytes()).unwrap());
-        config.global.prefix = FileName::new(format!("lamma-{}_", scope.tag()).as_bytes()).unwrap();
-        // As in our own transport: else a thousand processes take minutes to start.
-        config.global.node.cleanup_dead_nodes_on_creation = false;
-        config.global.node.cleanup_dead_nodes_on_destruction = false;
-        config.global.service.cleanup_dead_nodes_on_open = false;
-        let node = NodeBuilder::new().config(&config).create::<ipc::Service>().unwrap();
-        let room = usize::from(scope.agents()) + 8;
-        let service = |name: &str| {
-            let name = ServiceName::new(&format!("raw-barrier/{name}")).unwrap();
-            let builder = node.service_builder(&name).event();
-            let builder = builder.max_listeners(room).max_notifiers(room).max_nodes(room);
-            builder.event_id_max_value(room).open_or_create().unwrap()
-        };
-        let bell = service(names[0]).listener_builder().create().unwrap();
-        let ring = service(names[1]).notifier_builder().create().unwrap();
-        Raw { bell, ring, _node: node }
-    }
-
-    /// Sleeps until `count` different ids have rung.
-    fn await_rings(&self, count: usize) {
-        let mut rung = BTreeSet::new();
-        while rung.len() < count {
-            self.bell.blocking_wait(|event| _ = rung.insert(event.id.as_value())).unwrap();
-        }
-    }
-}
-
 fn request(round: u64) -> Envelope {
     let act = Act { action: "Move".into(), args: vec!["r1".into(), "w1".into(), "w2".into()] };
     let step = StepIndex(u32::try_from(round).unwrap());
@@ -96,8 +54,9 @@ fn request(round: u64) -> Envelope {
 /// One robot: answers in the same turns.
 fn robot(scope: &Scope, agent: u16, rounds: u64) {
     let id = AgentId(agent);
-    let mut bus = Endpoint::open(scope, Member::Robot(id)).unwrap();
-    let raw = Raw::new(scope, ["release", "arrive"]);
+    let mut bus = Endpoint::open(scope, Node::Robot(id)).unwrap();
+    let node = raw_node(scope);
+    let raw = RawEvents::new(&node, ["release", "arrive"], scope.agents().into());
     println!("ready");
     for turn in 0..rounds.div_ceil(TURN) {
         for round in turn * TURN + 1..=(turn + 1) * TURN {
@@ -116,83 +75,63 @@ fn robot(scope: &Scope, agent: u16, rounds: u64) {
         }
         for _ in 0..TURN {
             raw.await_rings(1);
-            raw.ring.notify_with_custom_event_id(EventId::new(agent.into())).unwrap();
+            raw.ring(agent.into());
         }
     }
-    // Until the parent closes it: an early end would disturb the others' last rounds.
-    std::io::stdin().lines().for_each(drop);
-}
-
-fn spawn(scope: &Scope, agent: u16, rounds: u64) -> Child {
-    let mut command = Command::new(std::env::current_exe().unwrap());
-    command.args(["robot", &scope.to_string(), &agent.to_string(), &rounds.to_string()]);
-    command.stdin(Stdio::piped()).stdout(Stdio::piped());
-    tie_to_parent(&mut command).spawn().unwrap()
+    until_let_go();
 }
 
 fn measure(agents: u16, rounds: u64) {
     let run = Run::create(agents).unwrap();
-    let mut bus = run.open(Member::Simulator).unwrap();
-    let raw = Raw::new(run.scope(), ["arrive", "release"]);
-    let mut children: Vec<Child> = (0..agents).map(|a| spawn(run.scope(), a, rounds)).collect();
-    for child in &mut children {
-        let mut line = String::new();
-        std::io::BufReader::new(child.stdout.as_mut().unwrap()).read_line(&mut line).unwrap();
-        assert_eq!(line, "ready\n");
-    }
-    let bits = vec![0; FACTS.div_ceil(64) as usize];
-    let progress = vec![StepIndex(0); agents.into()];
+    let mut bus = run.open(Node::Simulator).unwrap();
+    let node = raw_node(run.scope());
+    let raw = RawEvents::new(&node, ["arrive", "release"], agents.into());
+    let place = run.scope().to_string();
+    let robot = |a: u16| vec!["robot".into(), place.clone(), a.to_string(), rounds.to_string()];
+    let children = Children::start((0..agents).map(robot));
     let (mut ours, mut bare) = (Vec::new(), Vec::new());
     for turn in 0..rounds.div_ceil(TURN) {
         for round in turn * TURN + 1..=(turn + 1) * TURN {
-            let start = Instant::now();
-            let header = FrameHeader {
-                version: round,
-                facts: FACTS,
-                progress: progress.clone(),
-                ..FrameHeader::default()
-            };
-            bus.publish_frame(&frame::write_frame(&header, &bits)).unwrap();
-            let mut there = vec![false; agents.into()];
-            let mut left = agents;
-            while left > 0 {
-                let count = bus.receive(&mut |r| {
-                    if let Received::Message(Topic::Request(a), e) = r
-                        && e.revision.number == round
-                        && !std::mem::replace(&mut there[a.index()], true)
-                    {
-                        left -= 1;
-                    }
-                });
-                if left > 0 && count == 0 {
-                    bus.wait(None).unwrap();
-                }
-            }
-            ours.push(start.elapsed());
+            time(&mut ours, || meet(&mut bus, agents, round));
         }
         for _ in 0..TURN {
-            let start = Instant::now();
-            raw.ring.notify_with_custom_event_id(EventId::new(0)).unwrap();
-            raw.await_rings(agents.into());
-            bare.push(start.elapsed());
+            time(&mut bare, || {
+                raw.ring(0);
+                raw.await_rings(agents.into());
+            });
         }
     }
-    for child in &mut children {
-        drop(child.stdin.take());
-    }
-    children.iter_mut().for_each(|c| _ = c.wait().unwrap());
-    drop((bus, raw));
+    children.end();
+    drop((bus, raw, node));
     run.end().unwrap();
-    report(agents, ours, bare);
+    report(agents, &mut ours, &mut bare);
 }
 
-fn report(agents: u16, mut ours: Vec<Duration>, mut bare: Vec<Duration>) {
-    let at = |times: &mut Vec<Duration>, percent: usize| {
-        times.sort_unstable();
-        times[(times.len() - 1) * percent / 100].as_secs_f64() * 1e6
-    };
-    let (o50, o99) = (at(&mut ours, 50), at(&mut ours, 99));
-    let (r50, r99) = (at(&mut bare, 50), at(&mut bare, 99));
+/// Shows all a frame, and sleeps until each has answered.
+fn meet(bus: &mut Endpoint, agents: u16, round: u64) {
+    let progress = vec![StepIndex(0); agents.into()];
+    let header = FrameHeader { version: round, facts: FACTS, progress, ..FrameHeader::default() };
+    bus.publish_frame(&frame::write_frame(&header, &[])).unwrap();
+    let mut there = vec![false; agents.into()];
+    let mut left = agents;
+    while left > 0 {
+        let count = bus.receive(&mut |r| {
+            if let Received::Message(Topic::Request(a), e) = r
+                && e.revision.number == round
+                && !std::mem::replace(&mut there[a.index()], true)
+            {
+                left -= 1;
+            }
+        });
+        if left > 0 && count == 0 {
+            bus.wait(None).unwrap();
+        }
+    }
+}
+
+fn report(agents: u16, ours: &mut [Duration], bare: &mut [Duration]) {
+    let (o50, o99) = (quantile(ours, 500), quantile(ours, 990));
+    let (r50, r99) = (quantile(bare, 500), quantile(bare, 990));
     println!(
         "{agents:>6}  {o50:>11.1} {o99:>8.1}  {r50:>11.1} {r99:>8.1}  {:>9.2} {:>5.2}  {:>8.2}",
         o50 / r50,

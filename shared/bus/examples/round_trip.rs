@@ -11,16 +11,13 @@
 //! The three take turns, so that a busy machine is equally busy for all.
 #![expect(clippy::unwrap_used, reason = "an example that fails says where")]
 
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+mod common;
 
-use iceoryx2::port::listener::Listener;
-use iceoryx2::port::notifier::Notifier;
+use common::{Children, RawEvents, quantile, raw_node, time};
 use iceoryx2::port::publisher::Publisher;
 use iceoryx2::port::subscriber::Subscriber;
 use iceoryx2::prelude::*;
 use lamma_bus::iceoryx::{Endpoint, Run, Scope};
-use lamma_bus::process::tie_to_parent;
 use lamma_bus::{Bus, Received};
 use lamma_protocol::message::{Ack, Act, Gate, Request, Verdict};
 use lamma_protocol::{AgentId, Envelope, Epoch, Message, Node as Member, Revision, StepIndex, Topic, codec};
@@ -68,55 +65,39 @@ fn await_message(bus: &mut Endpoint, number: u64) {
 struct Raw {
     out: Publisher<ipc::Service, [u8], ()>,
     back: Subscriber<ipc::Service, [u8], ()>,
-    ring: Notifier<ipc::Service>,
-    bell: Listener<ipc::Service>,
+    events: RawEvents,
     _node: Node<ipc::Service>,
 }
 
 impl Raw {
+    /// `names`: of what it hears, and of what it says.
     fn new(scope: &Scope, names: [&str; 2]) -> Raw {
-        let mut config = Config::default();
-        config.global.set_root_path(&Path::new(scope.root().to_str().unwrap().as_bytes()).unwrap());
-        config.global.prefix = FileName::new(format!("lamma-{}_", scope.tag()).as_bytes()).unwrap();
-        let node = NodeBuilder::new().config(&config).create::<ipc::Service>().unwrap();
+        let node = raw_node(scope);
         let data = |name: &str| {
             let name = ServiceName::new(&format!("raw/{name}")).unwrap();
             node.service_builder(&name).publish_subscribe::<[u8]>().open_or_create().unwrap()
         };
-        let event = |name: &str| {
-            let name = ServiceName::new(&format!("raw-bell/{name}")).unwrap();
-            node.service_builder(&name).event().open_or_create().unwrap()
-        };
-        let out = data(names[0]).publisher_builder().initial_max_slice_len(1024).create().unwrap();
-        let back = data(names[1]).subscriber_builder().create().unwrap();
-        let ring = event(names[0]).notifier_builder().create().unwrap();
-        let bell = event(names[1]).listener_builder().create().unwrap();
-        Raw { out, back, ring, bell, _node: node }
+        let back = data(names[0]).subscriber_builder().create().unwrap();
+        let out = data(names[1]).publisher_builder().initial_max_slice_len(1024).create().unwrap();
+        Raw { out, back, events: RawEvents::new(&node, names, 1), _node: node }
     }
 
     fn send(&self, bytes: &[u8]) {
         self.out.loan_slice_uninit(bytes.len()).unwrap().write_from_slice(bytes).send().unwrap();
-        self.ring.notify().unwrap();
+        self.events.ring(0);
     }
 
     /// One ring for each sample: a ring left over would be taken for an answer later.
     fn await_data(&self) {
-        self.await_ring();
+        self.events.await_rings(1);
         assert!(self.back.receive().unwrap().is_some(), "a ring comes after its sample");
-    }
-
-    fn await_ring(&self) {
-        let mut rung = 0;
-        while rung == 0 {
-            rung = self.bell.blocking_wait(|_| {}).unwrap();
-        }
     }
 }
 
 /// The other process: answers in the same turns.
 fn peer(scope: &Scope, rounds: usize) {
     let mut bus = Endpoint::open(scope, Member::Simulator).unwrap();
-    let raw = Raw::new(scope, ["back", "out"]);
+    let raw = Raw::new(scope, ["out", "back"]);
     let ack_bytes = codec::encode(&ack(1)).unwrap();
     println!("ready");
     let mut number = 0;
@@ -131,8 +112,8 @@ fn peer(scope: &Scope, rounds: usize) {
             raw.send(&ack_bytes);
         }
         for _ in 0..TURN {
-            raw.await_ring();
-            raw.ring.notify().unwrap();
+            raw.events.await_rings(1);
+            raw.events.ring(0);
         }
     }
 }
@@ -140,13 +121,8 @@ fn peer(scope: &Scope, rounds: usize) {
 fn measure(rounds: usize) {
     let run = Run::create(1).unwrap();
     let mut bus = run.open(Member::Robot(R0)).unwrap();
-    let raw = Raw::new(run.scope(), ["out", "back"]);
-    let mut command = Command::new(std::env::current_exe().unwrap());
-    command.args(["peer", &run.scope().to_string(), &rounds.to_string()]).stdout(Stdio::piped());
-    let mut child = tie_to_parent(&mut command).spawn().unwrap();
-    let mut line = String::new();
-    let mut stdout = std::io::BufReader::new(child.stdout.take().unwrap());
-    std::io::BufRead::read_line(&mut stdout, &mut line).unwrap();
+    let raw = Raw::new(run.scope(), ["back", "out"]);
+    let children = Children::start([vec!["peer".into(), run.scope().to_string(), rounds.to_string()]]);
 
     let bytes = codec::encode(&request(1)).unwrap();
     let mut number = 0;
@@ -167,12 +143,12 @@ fn measure(rounds: usize) {
         }
         for _ in 0..TURN {
             time(&mut kinds[2].1, || {
-                raw.ring.notify().unwrap();
-                raw.await_ring();
+                raw.events.ring(0);
+                raw.events.await_rings(1);
             });
         }
     }
-    child.wait().unwrap();
+    children.end();
     drop((bus, raw));
     run.end().unwrap();
 
@@ -181,20 +157,9 @@ fn measure(rounds: usize) {
         bytes.len(),
         codec::encode(&ack(1)).unwrap().len()
     );
-    for (_, times) in &mut kinds {
-        times.sort_unstable();
-    }
-    let at =
-        |times: &[Duration], percent: usize| times[(times.len() - 1) * percent / 100].as_secs_f64() * 1e6;
-    let base = at(&kinds[1].1, 50);
-    for (name, times) in &kinds {
-        let (p50, p99) = (at(times, 50), at(times, 99));
+    let base = quantile(&mut kinds[1].1, 500);
+    for (name, times) in &mut kinds {
+        let (p50, p99) = (quantile(times, 500), quantile(times, 990));
         println!("{name:20} p50 {p50:7.1} us   p99 {p99:7.1} us   {:.2} x raw data + event", p50 / base);
     }
-}
-
-fn time(times: &mut Vec<Duration>, round: impl FnOnce()) {
-    let start = Instant::now();
-    round();
-    times.push(start.elapsed());
 }

@@ -13,12 +13,14 @@
 //! busy for all.
 #![expect(clippy::unwrap_used, reason = "an example that fails says where")]
 
+mod common;
+
 use std::collections::BTreeSet;
-use std::process::{Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-use lamma_bus::process::{raise_open_files_limit, tie_to_parent};
+use common::{Children, quantile, time};
+use lamma_bus::process::raise_open_files_limit;
 use lamma_bus::zenoh::{Endpoint, Join, Router};
 use lamma_bus::{Bus, Received};
 use lamma_protocol::message::{Ack, Act, Gate, Request, Verdict};
@@ -147,6 +149,7 @@ fn peer(router: &str, agents: u16, rounds: u64) {
                 raw.say(&bytes);
             }
         }
+        // What was lost is said again by who waits.
         bus.wait(Some(Duration::from_millis(300))).unwrap();
         return;
     }
@@ -169,6 +172,7 @@ fn peer(router: &str, agents: u16, rounds: u64) {
                         raw.say(&bytes);
                     }
                 }
+                // What was lost is said again by who waits.
                 bus.wait(Some(Duration::from_millis(300))).unwrap();
             });
         }
@@ -181,18 +185,13 @@ fn measure(rounds: u64, agents: u16) {
     let rounds = rounds.div_ceil(TURN) * TURN;
     let router = Router::local().unwrap();
     let at = router.endpoint();
-    let mut command = Command::new(std::env::current_exe().unwrap());
-    command.args(["peer", &at, &agents.to_string(), &rounds.to_string()]).stdout(Stdio::piped());
-    let mut child = tie_to_parent(&mut command).spawn().unwrap();
+    let children = Children::start([vec!["peer".into(), at.clone(), agents.to_string(), rounds.to_string()]]);
     let (node, out, back) = match agents {
         0 => (Node::Robot(AgentId(0)), "raw/out", "raw/back"),
         _ => (Node::Simulator, "raw/release", "raw/arrive/*"),
     };
     let mut bus = Endpoint::open(&join(&at, agents.max(1)), node).unwrap();
     let raw = Raw::new(&at, out.into(), back.into());
-    let mut line = String::new();
-    let mut stdout = std::io::BufReader::new(child.stdout.take().unwrap());
-    std::io::BufRead::read_line(&mut stdout, &mut line).unwrap();
     // A declared publisher learns of subscriptions in its own time.
     std::thread::sleep(Duration::from_millis(500));
 
@@ -230,24 +229,14 @@ fn measure(rounds: u64, agents: u16) {
             });
         }
     }
-    child.wait().unwrap();
-    ours.sort_unstable();
-    bare.sort_unstable();
-    let at =
-        |times: &[Duration], percent: usize| times[(times.len() - 1) * percent / 100].as_secs_f64() * 1e6;
+    children.end();
+    let (o50, o99) = (quantile(&mut ours, 500), quantile(&mut ours, 990));
+    let (r50, r99) = (quantile(&mut bare, 500), quantile(&mut bare, 990));
     let what = if agents == 0 { "request, ack".to_owned() } else { format!("barrier over {agents}") };
     println!(
-        "{what:18} ours p50 {:9.1} us p99 {:9.1} us   bare p50 {:9.1} us p99 {:9.1} us   {:.2} x bare (p50)",
-        at(&ours, 50),
-        at(&ours, 99),
-        at(&bare, 50),
-        at(&bare, 99),
-        at(&ours, 50) / at(&bare, 50)
+        "{what:18} ours p50 {o50:9.1} us p99 {o99:9.1} us   bare p50 {r50:9.1} us p99 {r99:9.1} us   \
+         ratio p50 {:.2} p99 {:.2}",
+        o50 / r50,
+        o99 / r99
     );
-}
-
-fn time(times: &mut Vec<Duration>, round: impl FnOnce()) {
-    let start = Instant::now();
-    round();
-    times.push(start.elapsed());
 }

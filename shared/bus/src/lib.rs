@@ -31,7 +31,7 @@ pub mod zenoh;
 use std::task::Waker;
 use std::time::Duration;
 
-use lamma_protocol::{AgentId, Envelope, Frame, Node, Topic, codec};
+use lamma_protocol::{AgentId, Awaits, Envelope, Frame, Node, Topic, codec};
 
 pub use error::{PublishError, WaitError};
 pub use inbox::{Inbox, Stats};
@@ -53,6 +53,12 @@ pub trait Bus {
     /// Publishes bytes as they are: the primitive below [`Bus::publish`], also for what injects faults.
     fn publish_bytes(&mut self, topic: Topic, bytes: &[u8]) -> Result<(), PublishError>;
 
+    /// As [`Bus::publish_bytes`], of what its readers learn by a frame anyway: a transport may let them sleep until
+    /// that comes.
+    fn publish_quietly(&mut self, topic: Topic, bytes: &[u8]) -> Result<(), PublishError> {
+        self.publish_bytes(topic, bytes)
+    }
+
     /// Publishes the words of a world frame; one copy, into memory that all readers share.
     fn publish_frame(&mut self, words: &[u64]) -> Result<(), PublishError>;
 
@@ -63,6 +69,12 @@ pub trait Bus {
     /// Sleeps until something may have arrived, [`Bus::waker`] is used, or the time is over (`None`:
     /// without limit). False if it was the time. May return early for no reason.
     fn wait(&mut self, timeout: Option<Duration>) -> Result<bool, WaitError>;
+
+    /// Which frames need end a [`Bus::wait`] from now on. A hint: others may end it too, and whatever ends it, the
+    /// newest frame is received.
+    fn await_frames(&mut self, awaits: Awaits) {
+        let _ = awaits;
+    }
 
     /// Ends a [`Bus::wait`], now or the next one, from any thread.
     fn waker(&self) -> Waker;
@@ -88,6 +100,14 @@ impl<B: Bus + ?Sized> Bus for Box<B> {
 
     fn publish_frame(&mut self, words: &[u64]) -> Result<(), PublishError> {
         (**self).publish_frame(words)
+    }
+
+    fn publish_quietly(&mut self, topic: Topic, bytes: &[u8]) -> Result<(), PublishError> {
+        (**self).publish_quietly(topic, bytes)
+    }
+
+    fn await_frames(&mut self, awaits: Awaits) {
+        (**self).await_frames(awaits);
     }
 
     fn receive(&mut self, sink: &mut dyn FnMut(Received<'_>)) -> usize {

@@ -16,6 +16,7 @@ mod state;
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use lamma_pddl::Name;
 use lamma_pddl::ast::{Action, Condition, Domain, Init, NumericExpr, TypedName};
@@ -27,6 +28,7 @@ pub use ground::{GroundAction, GroundEffect, Outcome};
 pub use state::{Change, WorldState};
 
 use crate::plan::GroundAct;
+use crate::travel::Travel;
 use axioms::Axioms;
 use ground::Grounder;
 use state::View;
@@ -45,6 +47,7 @@ pub struct Interpreter {
     /// Each object with all types it is of.
     objects: BTreeMap<Name, Vec<Name>>,
     axioms: Axioms,
+    travel: Option<Arc<Travel>>,
 }
 
 impl Interpreter {
@@ -66,10 +69,17 @@ impl Interpreter {
             types,
             objects,
             axioms: Axioms::named(&domain.axioms),
+            travel: None,
         };
         interpreter.check_domain(domain)?;
         interpreter.axioms = Axioms::new(&domain.axioms, &interpreter)?;
         Ok(interpreter)
+    }
+
+    /// The same where going takes as long as the way is.
+    pub fn with_travel(mut self, travel: Option<Arc<Travel>>) -> Self {
+        self.travel = travel;
+        self
     }
 
     /// The initial state. Without a value, `(total-cost)` is 0.
@@ -176,8 +186,13 @@ impl Interpreter {
         Ok(state.change(effects))
     }
 
-    /// How long the action takes when it begins in this state; 1 where the domain says nothing.
+    /// How long the action takes when it begins in this state; 1 where neither the domain nor a [`Travel`] says
+    /// anything.
     pub fn duration(&self, state: &WorldState, action: &GroundAction) -> Result<f64, Violation> {
+        let going = self.travel.as_ref().and_then(|travel| travel.duration(&state.facts, &action.act));
+        if let Some(duration) = going {
+            return Ok(duration);
+        }
         let fault = |unmet| Violation { act: action.act.clone(), unmet: vec![unmet] };
         action.duration.value(&state.values).map_err(fault)
     }

@@ -15,12 +15,13 @@ mod sas;
 pub mod search;
 mod successor;
 pub mod task;
+pub mod travel;
 pub mod validate;
 
 pub use explain::explain_unreachable;
 pub use ground::{GroundError, GroundLimits, ground};
 pub use interpreter::{GroundAction, GroundCondition, GroundEffect, Interpreter, WorldState};
-pub use makespan::{Makespan, MakespanLimits, Schedule, Scheduler};
+pub use makespan::{Makespan, MakespanLimits, Milestone, Need, Schedule, Scheduler};
 pub use plan::{GroundAct, Literal, Plan};
 pub use sas::write_sas;
 pub use search::{
@@ -28,4 +29,5 @@ pub use search::{
     plan_with, relaxed_plan_cost, solve, solve_anytime,
 };
 pub use task::{FactId, OperatorId, State, Task};
+pub use travel::Travel;
 pub use validate::{Verdict, read_plan, validate, write_plan};

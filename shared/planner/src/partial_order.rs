@@ -76,6 +76,18 @@ pub fn deorder(
     goal: &GroundCondition,
     keep: &[(usize, usize)],
 ) -> Result<PartialOrder, (usize, Violation)> {
+    deorder_with(interpreter, initial, steps, goal, keep, &[])
+}
+
+/// [`deorder`] where steps rely on more than their preconditions: pairs of a step and what holds when it runs.
+pub fn deorder_with(
+    interpreter: &Interpreter,
+    initial: &WorldState,
+    steps: Vec<TeamStep>,
+    goal: &GroundCondition,
+    keep: &[(usize, usize)],
+    relied_on: &[(usize, Literal)],
+) -> Result<PartialOrder, (usize, Violation)> {
     let (states, durations) = trace(interpreter, initial, &steps)?;
     let mut explainer = Explainer {
         states,
@@ -85,6 +97,9 @@ pub fn deorder(
         seen: BTreeSet::new(),
         links: Vec::new(),
     };
+    for (step, literal) in relied_on {
+        explainer.need(*step, vec![literal.clone()]);
+    }
     explainer.link_all(goal);
     explainer.order_threats();
     explainer.order_own_sequences();

@@ -11,10 +11,10 @@ use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::{Condition, Domain, GroundAtom, Init, Problem, TypedName};
 use lamma_pddl::{Name, Source, parse_condition, parse_domain};
-use lamma_planner::partial_order::{TeamStep, deorder};
+use lamma_planner::partial_order::{TeamStep, deorder, deorder_with, literal_effects};
 use lamma_planner::{
-    GroundAct, GroundLimits, Interpreter, MakespanLimits, OperatorId, Plan, Scheduler, Task, WorldState,
-    ground,
+    FactId, GroundAct, GroundCondition, GroundLimits, Interpreter, Literal, MakespanLimits, Milestone, Need,
+    OperatorId, Plan, Scheduler, Task, WorldState, ground,
 };
 use proptest::prelude::*;
 
@@ -122,9 +122,31 @@ fn world(bits: u32, goal: Condition) -> World {
     World { problem, interpreter, initial, acts }
 }
 
+/// What a plan may do only while something else holds: the literals, and that condition.
+struct Order {
+    later: BTreeSet<Literal>,
+    earlier: GroundCondition,
+}
+
+impl Order {
+    /// Of two goals, the second is brought about while the first holds, as far as it is new.
+    fn new(world: &World, earlier: GroundCondition, later: &GroundCondition) -> Self {
+        let free: Vec<&Literal> = earlier.literals();
+        let new = |l: &&Literal| world.initial.facts.contains(&l.atom) != l.holds && !free.contains(l);
+        Order { later: later.literals().into_iter().filter(new).cloned().collect(), earlier }
+    }
+
+    /// What the step relies on for the sake of the order; `None` if it may not be done in that state.
+    fn relied_on(&self, world: &World, state: &WorldState, step: &TeamStep) -> Option<Vec<Literal>> {
+        let brings_about = literal_effects(&step.action)
+            .any(|(when, effect)| self.later.contains(effect) && world.interpreter.holds(state, when));
+        if brings_about { self.earlier.witness(state) } else { Some(Vec::new()) }
+    }
+}
+
 /// The least makespan over the deordered forms of all linear plans of at most `length` actions; `None` if there
 /// is none. Nothing is merged or pruned, so keep `length` small.
-fn brute_force(world: &World, goal: &Condition, length: usize) -> Option<f64> {
+fn brute_force(world: &World, goal: &Condition, asked: &Order, length: usize) -> Option<f64> {
     let ground = world.interpreter.ground_condition(goal).unwrap();
     let actions: Vec<TeamStep> = world
         .acts
@@ -132,11 +154,12 @@ fn brute_force(world: &World, goal: &Condition, length: usize) -> Option<f64> {
         .map(|(agent, act)| TeamStep { agent: *agent, action: world.interpreter.instantiate(act).unwrap() })
         .collect();
     let mut best: Option<f64> = None;
-    let mut open: Vec<(Vec<usize>, WorldState)> = vec![(Vec::new(), world.initial.clone())];
-    while let Some((plan, state)) = open.pop() {
+    let mut open = vec![(Vec::new(), Vec::new(), world.initial.clone())];
+    while let Some((plan, relied_on, state)) = open.pop() {
         if world.interpreter.holds(&state, &ground) {
-            let steps = plan.iter().map(|&i| actions[i].clone()).collect();
-            let order = deorder(&world.interpreter, &world.initial, steps, &ground, &[]).unwrap();
+            let steps = plan.iter().map(|&i: &usize| actions[i].clone()).collect();
+            let order =
+                deorder_with(&world.interpreter, &world.initial, steps, &ground, &[], &relied_on).unwrap();
             best = Some(best.map_or(order.makespan(), |b| b.min(order.makespan())));
             continue;
         }
@@ -145,15 +168,18 @@ fn brute_force(world: &World, goal: &Condition, length: usize) -> Option<f64> {
         }
         for (i, step) in actions.iter().enumerate() {
             let mut next = state.clone();
+            let Some(relies) = asked.relied_on(world, &state, step) else { continue };
             if world.interpreter.apply(&mut next, &step.action).is_ok() && next != state {
-                open.push(([plan.as_slice(), &[i]].concat(), next));
+                let own = relies.into_iter().map(|literal| (plan.len(), literal));
+                let relied_on = relied_on.iter().cloned().chain(own).collect();
+                open.push(([plan.as_slice(), &[i]].concat(), relied_on, next));
             }
         }
     }
     best
 }
 
-fn agents(task: &lamma_planner::Task) -> Vec<u32> {
+fn agents(task: &Task) -> Vec<u32> {
     let operators = (0..task.operators.len() as u32).map(OperatorId);
     operators.map(|o| u32::from(task.act(o).args[0] == "r2")).collect()
 }
@@ -175,7 +201,8 @@ proptest! {
         let world = world(bits, goal.clone());
         let domain = parse_domain(&Source::new("flat.pddl", DOMAIN)).unwrap().value;
         let task = ground(&domain, &world.problem, &GroundLimits::default()).unwrap();
-        let expected = brute_force(&world, &goal, LENGTH);
+        let free = Order::new(&world, GroundCondition::TRUE, &GroundCondition::TRUE);
+        let expected = brute_force(&world, &goal, &free, LENGTH);
         let of = agents(&task);
         let limits = MakespanLimits::default();
         let Some(scheduler) = Scheduler::new(&task, &of) else {
@@ -366,4 +393,75 @@ impl Carriers {
         prop_assert!(self.interpreter.holds(&end.unwrap(), &goal), "the plan misses the goal");
         Ok(order.makespan() as u32)
     }
+}
+
+/// The condition over the facts of the task; what the task does not know never changes.
+fn need(task: &Task, world: &World, condition: &GroundCondition) -> Need {
+    let all = |parts: &[GroundCondition]| parts.iter().map(|part| need(task, world, part)).collect();
+    match condition {
+        GroundCondition::And(parts) => Need::All(all(parts)),
+        GroundCondition::Or(parts) => Need::Any(all(parts)),
+        GroundCondition::Literal(wanted) => {
+            let facts = (0..task.facts.len() as u32).map(FactId);
+            let mut known = facts.filter_map(|f| task.literal(f).map(|literal| (f, literal)));
+            match known.find(|(_, literal)| literal.atom == wanted.atom) {
+                Some((fact, literal)) => Need::Fact(fact, literal.holds == wanted.holds),
+                None if world.initial.facts.contains(&wanted.atom) == wanted.holds => Need::All(Vec::new()),
+                None => Need::Any(Vec::new()),
+            }
+        }
+        GroundCondition::Compare(..) => unreachable!("the goals compare no numbers"),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(), ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_schedule_in_order_is_shorter_than_the_bound_says(
+        bits in any::<u32>(),
+        first in 0usize..GOALS.len(),
+        then in 0usize..GOALS.len(),
+    ) {
+        let parts = [first, then].map(|g| parse_condition(GOALS[g]).unwrap());
+        let goal = Condition::And(parts.to_vec());
+        let world = world(bits, goal.clone());
+        let domain = parse_domain(&Source::new("flat.pddl", DOMAIN)).unwrap().value;
+        let task = ground(&domain, &world.problem, &GroundLimits::default()).unwrap();
+        let [earlier, later] = parts.map(|part| world.interpreter.ground_condition(&part).unwrap());
+        let milestones = [(&earlier, Vec::new()), (&later, vec![0])]
+            .map(|(condition, after)| Milestone { need: need(&task, &world, condition), after });
+        let asked = Order::new(&world, earlier, &later);
+        let expected = brute_force(&world, &goal, &asked, 4);
+        let of = agents(&task);
+        let Some(scheduler) = Scheduler::in_order(&task, &of, &milestones) else {
+            prop_assert_eq!(expected, None, "a plan where the scheduler sees none");
+            return Ok(());
+        };
+        let found = scheduler.shortest(0, Some(8), &MakespanLimits::default(), &AtomicBool::new(false));
+        if let (Some(bound), Some(expected)) = (found.lower_bound, expected) {
+            prop_assert!(f64::from(bound) <= expected, "bound {} above a plan of {}", bound, expected);
+        }
+    }
+}
+
+#[test]
+fn what_is_to_come_later_waits() {
+    let goal = Condition::And(["(lit a)", "(lit b)"].map(|g| parse_condition(g).unwrap()).to_vec());
+    // r1 at a, r2 at b, and power is on: each can light its place at once.
+    let world = world(1 << 3 | 1 << 6, goal);
+    let domain = parse_domain(&Source::new("flat.pddl", DOMAIN)).unwrap().value;
+    let task = ground(&domain, &world.problem, &GroundLimits::default()).unwrap();
+    let of = agents(&task);
+    let lit = |place: &str| {
+        let condition = parse_condition(&format!("(lit {place})")).unwrap();
+        need(&task, &world, &world.interpreter.ground_condition(&condition).unwrap())
+    };
+    let makespan = |after: Vec<usize>| {
+        let milestones = [Milestone { need: lit("a"), after: vec![] }, Milestone { need: lit("b"), after }];
+        let scheduler = Scheduler::in_order(&task, &of, &milestones).unwrap();
+        let found = scheduler.shortest(0, None, &MakespanLimits::default(), &AtomicBool::new(false));
+        found.schedule.map(|schedule| schedule.makespan())
+    };
+    assert_eq!((makespan(vec![]), makespan(vec![0])), (Some(1), Some(2)));
 }

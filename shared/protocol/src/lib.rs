@@ -12,7 +12,7 @@ pub mod topic;
 
 pub use frame::{Frame, FrameHeader};
 pub use id::{AgentId, Epoch, JobId, Node, PackageId, Revision, StepIndex, Tick};
-pub use machine::{Input, Machine, Output};
-pub use message::{Envelope, Message};
-pub use repeat::Repeat;
+pub use machine::{Awaits, Input, Machine, Output};
+pub use message::{Act, Envelope, Message};
+pub use repeat::{Repeat, SaidToEach};
 pub use topic::Topic;

@@ -6,7 +6,7 @@
 
 use crate::frame::Frame;
 use crate::id::{AgentId, JobId, Tick};
-use crate::message::{Envelope, Message};
+use crate::message::{Envelope, Gate, Message};
 use crate::topic::Topic;
 
 /// What a driver feeds to a machine.
@@ -41,6 +41,17 @@ pub enum Output<Job> {
     Finish,
 }
 
+/// Which frames a machine waits for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Awaits {
+    /// Each.
+    AnyFrame,
+    /// One in which this gate is open.
+    Opening(Gate),
+    /// None: only messages and its timeout concern it now.
+    NoFrame,
+}
+
 /// A state machine without side effects.
 pub trait Machine {
     /// Long work that it hands out.
@@ -56,4 +67,10 @@ pub trait Machine {
 
     /// When [`Input::Timeout`] is wanted, if at all.
     fn poll_timeout(&self) -> Option<Tick>;
+
+    /// Which frame it wants to be woken for. A hint that spares a large team from being woken by everybody's steps:
+    /// it may be handed other frames, and whatever else it is handed, the newest frame comes with it.
+    fn awaits(&self) -> Awaits {
+        Awaits::AnyFrame
+    }
 }

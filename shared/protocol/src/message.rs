@@ -38,6 +38,13 @@ pub enum Message {
     Vocabulary(Vocabulary),
 }
 
+impl Message {
+    /// Whether a frame comes with it that says the same: then nobody need be woken twice.
+    pub fn is_shown_by_a_frame(&self) -> bool {
+        matches!(self, Message::Ack(Ack { verdict: Verdict::Applied { .. }, .. }))
+    }
+}
+
 /// What the supervisor wants and knows.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Command {

@@ -1,7 +1,7 @@
 //! When to say again what was said: the cure for a lost message, thinned so that a large team at rest is
 //! quiet.
 
-use crate::id::Tick;
+use crate::id::{AgentId, Tick};
 
 /// The shortest pause, in microseconds: what is new is repeated this often.
 const FIRST_US: u64 = 100_000;
@@ -39,6 +39,49 @@ impl Repeat {
     }
 }
 
+/// What was said last to each member of a team, and when to say it again.
+#[derive(Clone, Debug)]
+pub struct SaidToEach<T>(Vec<Option<(T, Repeat)>>);
+
+impl<T: Clone> SaidToEach<T> {
+    /// Nothing yet.
+    pub fn nothing(agents: usize) -> Self {
+        SaidToEach(vec![None; agents])
+    }
+
+    /// The size of the team.
+    pub fn agents(&self) -> usize {
+        self.0.len()
+    }
+
+    /// What was said last to `agent`.
+    pub fn last(&self, agent: AgentId) -> Option<&T> {
+        self.0.get(agent.index())?.as_ref().map(|(said, _)| said)
+    }
+
+    /// Something new is said to `agent`.
+    pub fn news(&mut self, agent: AgentId, said: T, now: Tick) {
+        if let Some(slot) = self.0.get_mut(agent.index()) {
+            let mut repeat = Repeat::default();
+            repeat.news(now);
+            *slot = Some((said, repeat));
+        }
+    }
+
+    /// It is all void.
+    pub fn forget(&mut self) {
+        self.0.fill(None);
+    }
+
+    /// What is to be said again now; the next time is set.
+    pub fn due(&mut self, now: Tick) -> impl Iterator<Item = (AgentId, T)> {
+        (0..).map(AgentId).zip(&mut self.0).filter_map(move |(agent, said)| {
+            let (said, repeat) = said.as_mut()?;
+            repeat.take(now).then(|| (agent, said.clone()))
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -54,6 +97,19 @@ mod tests {
         assert_eq!(repeats(4), 14);
         assert!(repeats(60) - repeats(40) <= 11, "one in two seconds at most");
         assert!(repeats(60) > repeats(40), "and never silent");
+    }
+
+    #[test]
+    fn each_is_told_again_what_it_was_told_last() {
+        let mut said = SaidToEach::nothing(3);
+        said.news(AgentId(1), "go", Tick(0));
+        said.news(AgentId(1), "stop", Tick(0));
+        said.news(AgentId(9), "nobody", Tick(0));
+        assert_eq!(said.due(Tick(1)).count(), 0, "it is too early");
+        assert_eq!(said.due(Tick(FIRST_US)).collect::<Vec<_>>(), [(AgentId(1), "stop")]);
+        assert_eq!(said.last(AgentId(1)), Some(&"stop"));
+        said.forget();
+        assert_eq!(said.due(Tick(9 * LAST_US)).count(), 0);
     }
 
     #[test]

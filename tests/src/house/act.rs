@@ -39,6 +39,39 @@ impl House {
         }
     }
 
+    /// What happens without the team, if it is possible: somebody carries a thing elsewhere, or shuts a door.
+    pub fn happen(&mut self, words: &[&str]) -> Result<(), Refused> {
+        match words {
+            ["ObjectMoved", x, to] => self.carry_off(x, to),
+            ["DoorClosed", x] => {
+                let door = self.thing(x)?;
+                ensure(door.thing.can("openable") && door.open, "it is no open door")?;
+                ensure(self.exposed(x), "it cannot be reached")?;
+                if let Some(door) = self.things.get_mut(*x) {
+                    door.open = false;
+                }
+                Ok(())
+            }
+            _ => Err("there is no such event"),
+        }
+    }
+
+    fn carry_off(&mut self, x: &str, to: &str) -> Result<(), Refused> {
+        let object = self.thing(x)?;
+        ensure(object.is_item() && !matches!(object.place, Place::Held(_)), "it does not lie anywhere")?;
+        ensure(object.place != Place::In(to.to_string()), "it is there already")?;
+        ensure(self.accepts(to, x) && self.accessible(to) && self.exposed(to), "it does not go there")?;
+        ensure(!self.heats(to) && !self.cools(to) && !self.rinses(to), "nobody reaches into that")?;
+        ensure(self.hands_on(x).is_empty(), "robots offer a hand for it")?;
+        if let Some(object) = self.things.get_mut(x) {
+            object.place = Place::In(to.to_string());
+        }
+        for agent in self.agents.values_mut() {
+            agent.at.remove(x);
+        }
+        Ok(())
+    }
+
     /// The robot's process is gone: what it holds or helps to hold lies on the floor.
     pub fn lose(&mut self, robot: &str) {
         let Some(agent) = self.agents.get_mut(robot) else { return };

@@ -6,7 +6,7 @@ use super::inflect::VerbForm;
 use super::lexicon::{Act, LONGEST, Lexicon, Settings};
 use super::phrase::NounAt;
 use super::scene::Scene;
-use super::syntax::{Clause, Head, Link, Relation, is_determiner, is_function_word, preposition};
+use super::syntax::{Clause, Head, Link, Phrase, Relation, is_determiner, is_function_word, preposition};
 use opening::Opening;
 
 /// More clauses than this are not read.
@@ -24,6 +24,8 @@ pub struct Parser<'a> {
     pub passed_over: Vec<String>,
     /// What was chosen where the words left a choice.
     pub choices: Vec<String>,
+    /// The place named last: "on one table … on another".
+    pub(super) last_place: Option<Phrase>,
     /// Whether the verb at hand still needs a place to put something.
     pub(super) wants_place: bool,
     /// Whether the clause at hand is negated: then "or" forbids both.
@@ -41,6 +43,7 @@ impl<'a> Parser<'a> {
             nouns: super::phrase::nouns(words, lexicon).into(),
             passed_over: Vec::new(),
             choices: Vec::new(),
+            last_place: None,
             wants_place: false,
             negated: false,
         }
@@ -49,8 +52,9 @@ impl<'a> Parser<'a> {
     /// All clauses, in the order in which they are to be done.
     pub fn clauses(&mut self) -> Vec<Clause<'a>> {
         let mut clauses: Vec<Clause<'a>> = Vec::new();
-        // A clause that waits for the one said after it.
+        // A clause that waits for the one said after it, and whether it stands last because it has waited.
         let mut delayed: Option<Clause<'a>> = None;
+        let mut late = false;
         while self.position < self.words.len() && clauses.len() < MOST_CLAUSES {
             let said_from = self.position;
             let opening = self.opening(clauses.is_empty() && delayed.is_none());
@@ -58,7 +62,9 @@ impl<'a> Parser<'a> {
             if start >= self.words.len() {
                 break;
             }
-            let clause = self.clause(&opening, clauses.last());
+            let previous = clauses.iter().rev().nth(usize::from(late));
+            let clause = self.clause(&opening, previous);
+            late &= matches!((&clause, previous), (Some(clause), Some(previous)) if clause.inherits_from(previous));
             self.position = self.position.max(start + 1);
             let Some(mut clause) = clause else { continue };
             if let Some(said_before) = match &delayed {
@@ -75,10 +81,13 @@ impl<'a> Parser<'a> {
                 previous.link = Link::Then;
                 let at = clauses.len() - 1;
                 clauses.insert(at, Clause { link: Link::And, ..clause });
+            } else if late {
+                clauses.insert(clauses.len() - 1, clause);
             } else {
                 clauses.push(clause);
-                if let Some(late) = delayed.take() {
-                    clauses.push(Clause { link: Link::Then, ..late });
+                if let Some(waited) = delayed.take() {
+                    clauses.push(Clause { link: Link::Then, ..waited });
+                    late = true;
                 }
             }
         }
@@ -171,10 +180,18 @@ impl<'a> Parser<'a> {
             && clause.unknown.is_empty()
             && clause.complement.is_empty()
             && let Some(previous) = previous
+            && (!opening.sentence || goes_somewhere(&clause))
             && (!clause.objects.is_empty() || goes_somewhere(&clause) && places(previous))
         {
             clause.verbs.clone_from(&previous.verbs);
             clause.verb_text.clone_from(&previous.verb_text);
+            // "put the card in the box, then the keys"
+            if clause.places.is_empty() && clause.complement.is_empty() && places(previous) {
+                clause.places.clone_from(&previous.places);
+            }
+        }
+        if let Some(previous) = previous.filter(|_| clause.verbs.is_empty() && clause.unknown.is_empty()) {
+            clause.go_on(previous);
         }
         self.understood_verb(&mut clause);
         clause.text = self.text_between(start, self.position);
@@ -183,7 +200,7 @@ impl<'a> Parser<'a> {
 
     /// "apple in the fridge", "the fork goes in the drawer": to be put there.
     fn understood_verb(&self, clause: &mut Clause<'a>) {
-        let goes = |word: &String| ["goes", "go", "belongs", "belong"].contains(&word.as_str());
+        let goes = |word: &String| is_going(word);
         let told = self.words.iter().any(|word| ["is", "are", "was", "were"].contains(&word.as_str()));
         let moved = clause.objects.iter().all(|phrase| self.is_movable(phrase)) && !clause.objects.is_empty();
         if clause.verbs.is_empty()
@@ -212,7 +229,11 @@ impl<'a> Parser<'a> {
             if self.contrast() || self.neither(clause) || self.choice(clause) || self.there(clause) {
                 continue;
             }
-            if self.particle(clause) || self.complement(clause) || self.place(clause) {
+            if self.contents_told(clause)
+                || self.particle(clause)
+                || self.complement(clause)
+                || self.place(clause)
+            {
                 continue;
             }
             if matches!(word, "," | "and" | "or") {
@@ -273,6 +294,7 @@ impl<'a> Parser<'a> {
                     && !self.rest().starts_with(&["as", "well"])
                     && self.ahead(1).clause_starts_here(false)
             }
+            "with" if self.state_follows() => self.position > start,
             "to" if self.passive_follows() => self.position > start,
             // "to turn it on" begins a clause; "to the sink" does not.
             "to" | "by" => {
@@ -298,6 +320,7 @@ impl<'a> Parser<'a> {
     fn verb_reads_as_clause(&self) -> bool {
         let Some((form, verbs, length)) = self.verbs_here() else { return false };
         form != VerbForm::Past
+            && self.peek() != Some("should")
             && !verbs.iter().all(|verb| verb.act == Act::Go)
             && self.longest_noun().is_none()
             && preposition(&self.rest()).is_none()
@@ -317,7 +340,7 @@ impl<'a> Parser<'a> {
         plain && self.longest_noun_at(self.position + length).is_some()
     }
 
-    fn ahead(&self, offset: usize) -> Parser<'a> {
+    pub(super) fn ahead(&self, offset: usize) -> Parser<'a> {
         Parser {
             words: self.words,
             position: self.position + offset,
@@ -326,6 +349,7 @@ impl<'a> Parser<'a> {
             nouns: Rc::clone(&self.nouns),
             passed_over: Vec::new(),
             choices: Vec::new(),
+            last_place: self.last_place.clone(),
             wants_place: self.wants_place,
             negated: self.negated,
         }
@@ -335,7 +359,8 @@ impl<'a> Parser<'a> {
     fn same_verb_again(&self, clause: &Clause<'a>) -> bool {
         let switched = clause.verb_text.contains(' ') && self.ahead_after_things().complements_follow();
         let complete = !clause.places.is_empty() || !clause.complement.is_empty() || switched;
-        if clause.verbs.is_empty() || clause.objects.is_empty() || !complete {
+        let continues = clause.unknown.iter().all(|word| is_going(word));
+        if clause.verbs.is_empty() && !continues || clause.objects.is_empty() || !complete {
             return false;
         }
         let mut ahead = self.ahead(0);
@@ -343,6 +368,7 @@ impl<'a> Parser<'a> {
         if ahead.phrases(0).is_empty() {
             return false;
         }
+        ahead.position += usize::from(ahead.peek().is_some_and(is_going));
         if !clause.complement.is_empty() {
             let rest = ahead.rest();
             let states = |word: &&str| {
@@ -351,7 +377,8 @@ impl<'a> Parser<'a> {
             return rest.first().is_some_and(states);
         }
         preposition(&ahead.rest())
-            .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
+            .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To | Relation::Near))
+            || ahead.peek().is_some_and(|word| ["should", "must", "needs", "need"].contains(&word))
             || ahead.complements_follow()
     }
 
@@ -371,6 +398,11 @@ impl<'a> Parser<'a> {
 /// Whether a clause says where something goes.
 fn goes_somewhere(clause: &Clause<'_>) -> bool {
     clause.places.iter().any(|place| matches!(place.relation, Relation::In | Relation::To))
+}
+
+/// "the fork goes in the drawer"
+pub(super) fn is_going(word: &str) -> bool {
+    ["goes", "go", "belongs", "belong"].contains(&word)
 }
 
 /// Whether a clause's verb puts things somewhere.

@@ -40,7 +40,7 @@ pub struct Interpreter<'d, 'a> {
     switches_on: bool,
     clause: usize,
     /// What must not become so.
-    bans: Vec<forbid::Ban>,
+    prohibitions: Vec<forbid::Prohibition>,
     /// Whether the clause at hand said anything, new or not.
     pub spoke: bool,
 }
@@ -53,6 +53,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         };
         let sets_down = clauses.iter().any(|clause| {
             holds(clause)
+                && !clause.objects.is_empty()
                 && clause.places.iter().any(|place| {
                     matches!(place.relation, Relation::To)
                         || place.relation == Relation::In
@@ -78,7 +79,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             lamp_wanted,
             switches_on,
             clause: 0,
-            bans: Vec::new(),
+            prohibitions: Vec::new(),
             spoke: false,
         }
     }
@@ -94,10 +95,24 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         self.spoke = false;
         let mut spoken = Spoken::default();
         if clause.negated {
-            spoken = self.forbid(clause);
+            spoken = match self.not_to_be_left(clause) {
+                Some(kept) => self.keep(&kept),
+                None => self.forbid(clause),
+            };
+        } else if clause.says_any(&["same", "likewise"]) && self.same_again(clause, &mut spoken) {
         } else if let Some(verb) = self.choose(clause) {
+            let liquid = !clause.objects.is_empty() && clause.objects.iter().all(|o| o.liquid().is_some());
             spoken = match verb.act {
+                Act::Place | Act::Hold | Act::Keep if liquid && clause.places.iter().any(|place| {
+                    matches!(place.relation, Relation::In | Relation::To)
+                }) =>
+                {
+                    self.fill(clause, verb)
+                }
                 Act::Go => self.go(clause, next),
+                Act::Keep if clause.complement.is_empty() && next.is_some_and(speaks_of_it) => {
+                    self.only_mention(clause)
+                }
                 Act::Keep => self.keep(clause),
                 Act::Use => self.use_tool(clause, next),
                 Act::Place | Act::Discard | Act::Store => self.place(clause, verb, next),
@@ -129,6 +144,14 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             self.discourse.assume(format!("took \"{}\" as a remark", clause.text), 0.9);
             spoken = self.only_mention(clause);
             self.spoke = next.is_some_and(speaks_of_it);
+        } else if !clause.objects.is_empty()
+            && clause.unknown.is_empty()
+            && clause.places.is_empty()
+            && next.is_some_and(|next| !next.verbs.is_empty())
+        {
+            // "The dishes: wash the plate and the cup."
+            self.discourse.assume(format!("took \"{}\" as what is spoken of", clause.text), 0.9);
+            spoken = self.only_mention(clause);
         } else if !clause.objects.is_empty() || !clause.unknown.is_empty() {
             self.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.25);
         }
@@ -136,6 +159,24 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             self.discourse.assume(format!("passed over \"{word}\""), 0.85);
         }
         self.discourse.spoken.push(spoken);
+    }
+
+    /// "do the same with the spoon": all that was asked for of the thing spoken of last.
+    fn same_again(&mut self, clause: &Clause<'a>, spoken: &mut Spoken) -> bool {
+        let model = self.discourse.spoken.iter().rev().find_map(|spoken| spoken.objects.last().copied());
+        let Some(model) = model else { return false };
+        let kind = |phrase: &&Phrase| matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| self.discourse.scene.has(kind)));
+        let places = clause.places.iter().map(|place| &place.phrase);
+        let phrases: Vec<Phrase> = clause.objects.iter().chain(places).filter(kind).cloned().collect();
+        let facts: Vec<Change> =
+            self.facts.iter().filter(|fact| fact.entity == model).map(|fact| fact.change.clone()).collect();
+        for phrase in &phrases {
+            for entity in self.discourse.mention(phrase, &[], None) {
+                facts.iter().for_each(|change| self.add(entity, change.clone()));
+                spoken.objects.push(entity);
+            }
+        }
+        !spoken.objects.is_empty()
     }
 
     /// "the pan is dirty, wash it": only says what is spoken of.
@@ -301,9 +342,21 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         } else if clause.complement.is_empty() {
             self.discourse.problem(format!("I do not know what is to hold in \"{}\"", clause.text), 0.3);
         }
-        for &entity in &objects {
-            let entity = self.switch_of(entity, &clause.complement);
+        let switched: Vec<usize> =
+            objects.iter().map(|&entity| self.switch_of(entity, &clause.complement)).collect();
+        for &entity in &switched {
             self.add_states(entity, &clause.complement);
+        }
+        self.keep_on_the_way(clause, &switched);
+        if !clause.complement.is_empty() && clause.objects.iter().any(|phrase| self.is_movable(phrase)) {
+            let (goal, _, _) = self.sort_places(clause);
+            if let Some(goal) = goal.filter(|goal| goal.relation == Relation::In) {
+                let places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
+                if let Some(&place) = places.first() {
+                    objects.iter().for_each(|&entity| self.put_in(entity, place));
+                }
+                return Spoken { objects, placed: true, places, ..Spoken::default() };
+            }
         }
         Spoken { objects, ..Spoken::default() }
     }

@@ -14,7 +14,7 @@ const IRREGULAR_PLURALS: [(&str, &str); 6] = [
 ];
 
 /// Past forms no rule gives: (form, base).
-const IRREGULAR_PAST: [(&str, &str); 26] = [
+const IRREGULAR_PAST: [(&str, &str); 33] = [
     ("threw", "throw"),
     ("thrown", "throw"),
     ("took", "take"),
@@ -41,6 +41,13 @@ const IRREGULAR_PAST: [(&str, &str); 26] = [
     ("found", "find"),
     ("hidden", "hide"),
     ("swept", "sweep"),
+    ("ate", "eat"),
+    ("eaten", "eat"),
+    ("drank", "drink"),
+    ("written", "write"),
+    ("wrote", "write"),
+    ("worn", "wear"),
+    ("slept", "sleep"),
 ];
 
 /// The singulars a noun may be the plural of, likeliest first; empty when it does not look like a plural.

@@ -11,13 +11,17 @@ use lamma_domains::goal::PropertyValue;
 use serde::Deserialize;
 
 use super::inflect::{self, VerbForm};
-use super::situation::Situation;
+use super::situation::{self, Situation};
 use crate::LmError;
 
-const NOUNS: &str = include_str!("../../../../domains/household/lexicon/nouns.toml");
-const VERBS: &str = include_str!("../../../../domains/household/lexicon/verbs.toml");
-const WORDS: &str = include_str!("../../../../domains/household/lexicon/words.toml");
-const SITUATIONS: &str = include_str!("../../../../domains/household/lexicon/situations.toml");
+/// The files of a lexicon and those that are built in.
+const FILES: [(&str, &str); 5] = [
+    ("nouns.toml", include_str!("../../../../domains/household/lexicon/nouns.toml")),
+    ("uses.toml", include_str!("../../../../domains/household/lexicon/uses.toml")),
+    ("verbs.toml", include_str!("../../../../domains/household/lexicon/verbs.toml")),
+    ("words.toml", include_str!("../../../../domains/household/lexicon/words.toml")),
+    ("situations.toml", include_str!("../../../../domains/household/lexicon/situations.toml")),
+];
 
 /// The longest phrase the lexicon looks for, in words.
 pub const LONGEST: usize = 6;
@@ -110,6 +114,19 @@ pub struct Noun {
     pub class: bool,
 }
 
+/// What things of some types are for or like.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Use {
+    /// Sets of words that must all be there, as those of a situation.
+    pub when: Vec<String>,
+    /// What is meant, the likelier first.
+    pub kinds: Vec<String>,
+    /// It is said of a place.
+    #[serde(default)]
+    pub place: bool,
+}
+
 #[derive(Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -127,6 +144,8 @@ struct File {
     small: BTreeMap<String, Vec<String>>,
     #[serde(default)]
     situation: Vec<Situation>,
+    #[serde(default, rename = "use")]
+    uses: Vec<Use>,
     #[serde(default)]
     controls: BTreeMap<String, String>,
     #[serde(default)]
@@ -134,7 +153,7 @@ struct File {
     #[serde(default)]
     under: BTreeMap<String, String>,
     #[serde(default)]
-    inside: BTreeMap<String, Vec<String>>,
+    inside: BTreeMap<String, BTreeMap<String, Vec<String>>>,
     #[serde(default)]
     likes: BTreeMap<String, Vec<String>>,
 }
@@ -149,10 +168,11 @@ pub struct Lexicon {
     adjectives: BTreeMap<String, Adjective>,
     small: BTreeMap<String, BTreeSet<String>>,
     situations: Vec<Situation>,
+    uses: Vec<Use>,
     controls: BTreeMap<String, String>,
     homes: BTreeMap<String, Vec<String>>,
     under: BTreeMap<String, String>,
-    inside: BTreeMap<String, Vec<String>>,
+    inside: BTreeMap<String, BTreeMap<String, Vec<String>>>,
     likes: BTreeMap<String, Vec<String>>,
     vocabulary: BTreeSet<String>,
 }
@@ -161,17 +181,16 @@ impl Lexicon {
     /// The lexicon that is built in.
     pub fn embedded() -> Result<Self, LmError> {
         let mut lexicon = Self::default();
-        for (name, text) in [("nouns", NOUNS), ("verbs", VERBS), ("words", WORDS), ("situations", SITUATIONS)]
-        {
-            lexicon.extend(&format!("the built-in lexicon ({name}.toml)"), text)?;
+        for (name, text) in FILES {
+            lexicon.extend(&format!("the built-in lexicon ({name})"), text)?;
         }
         Ok(lexicon)
     }
 
-    /// A lexicon that takes the place of the one built in: the four files of a folder.
+    /// A lexicon that takes the place of the one built in: the files of a folder.
     pub fn from_folder(folder: &Path) -> Result<Self, LmError> {
         let mut lexicon = Self::default();
-        for name in ["nouns.toml", "verbs.toml", "words.toml", "situations.toml"] {
+        for (name, _) in FILES {
             let path = folder.join(name);
             let text = std::fs::read_to_string(&path).map_err(|error| {
                 LmError::Configuration(format!("cannot read the lexicon {}: {error}", path.display()))
@@ -219,10 +238,12 @@ impl Lexicon {
         self.inside.extend(file.inside);
         self.likes.extend(file.likes);
         for situation in file.situation {
-            for word in situation.vocabulary() {
-                self.vocabulary.insert(word);
-            }
+            self.vocabulary.extend(situation::vocabulary(&situation.when));
             self.situations.push(situation);
+        }
+        for usage in file.uses {
+            self.vocabulary.extend(situation::vocabulary(&usage.when));
+            self.uses.push(usage);
         }
         Ok(())
     }
@@ -346,9 +367,9 @@ impl Lexicon {
         own.chain(self.homes.get("anything").into_iter().flatten()).map(String::as_str)
     }
 
-    /// What a word means for something inside a vessel.
-    pub fn inside(&self, word: &str) -> Option<&[String]> {
-        self.inside.get(word).map(Vec::as_slice)
+    /// What a word means for something in or on a vessel of a type.
+    pub fn inside(&self, word: &str, vessel: &str) -> Option<&[String]> {
+        self.inside.get(word)?.get(vessel).map(Vec::as_slice)
     }
 
     /// What is called by a type's name where there is none of the type, the likelier first.
@@ -369,6 +390,11 @@ impl Lexicon {
     /// The situations.
     pub fn situations(&self) -> &[Situation] {
         &self.situations
+    }
+
+    /// What things are for.
+    pub fn uses(&self) -> &[Use] {
+        &self.uses
     }
 
     /// The words it knows, for spelling.

@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 use super::lexicon::{Lexicon, Noun, Settings};
 use super::scene::{Scene, is_in_state};
 use super::syntax::{Head, Phrase, Place, Quantity};
-use crate::ObjectView;
+use crate::{Ban, ObjectView};
+
+pub use confidence::Confidence;
 
 /// Which objects of its type an entity is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,8 +69,10 @@ pub struct Discourse<'a> {
     pub assumptions: Vec<String>,
     /// Not understood, or not possible here.
     pub problems: Vec<String>,
-    /// From 0 to 1.
-    pub confidence: f64,
+    /// How sure the reading is.
+    pub confidence: Confidence,
+    /// What must not be done on the way.
+    pub bans: Vec<Ban>,
     /// What is switched, and by what.
     controls: Vec<(usize, usize)>,
 }
@@ -83,7 +87,8 @@ impl<'a> Discourse<'a> {
             spoken: Vec::new(),
             assumptions: Vec::new(),
             problems: Vec::new(),
-            confidence: 1.0,
+            confidence: Confidence::default(),
+            bans: Vec::new(),
             controls: Vec::new(),
         }
     }
@@ -92,7 +97,7 @@ impl<'a> Discourse<'a> {
     pub fn problem(&mut self, text: String, factor: f64) {
         if !self.problems.contains(&text) {
             self.problems.push(text);
-            self.confidence *= factor;
+            self.confidence.doubt(factor);
         }
     }
 
@@ -100,7 +105,7 @@ impl<'a> Discourse<'a> {
     pub fn assume(&mut self, text: String, factor: f64) {
         if !self.assumptions.contains(&text) {
             self.assumptions.push(text);
-            self.confidence *= factor;
+            self.confidence.assume(factor);
         }
     }
 
@@ -110,8 +115,8 @@ impl<'a> Discourse<'a> {
             Head::Noun(noun) => self.noun(noun, phrase, at, wants),
             Head::Named(name) => self.named(name),
             Head::Pronoun { plural } => self.pronoun(*plural, wants),
-            Head::Slices => self.slices(),
-            Head::Everything => self.everything(phrase, at),
+            Head::Slices => self.slices(matches!(phrase.quantity, Quantity::Plural | Quantity::All)),
+            Head::Everything => self.everything(phrase, at, wants),
             // "the door", "the lid": of what was spoken of.
             Head::Room if wants == Some("openable") => self.pronoun(false, wants),
             Head::Liquid(_) | Head::Room => Vec::new(),
@@ -127,6 +132,11 @@ impl<'a> Discourse<'a> {
                 self.entities[entity].noun.clone_from(&noun.word);
             }
             self.entities[entity].asked.extend(phrase.states.clone());
+            if let Some(liquid) = phrase.with.iter().find_map(Phrase::liquid)
+                && self.scene.affords(self.entities[entity].kind(), "canFillWithLiquid")
+            {
+                self.entities[entity].asked.extend(filled(liquid));
+            }
             for &content in &contents {
                 if !self.entities[entity].holds.contains(&content) {
                     self.entities[entity].holds.push(content);
@@ -144,6 +154,9 @@ impl<'a> Discourse<'a> {
                 continue;
             }
             let Head::Noun(noun) = &phrase.head else { continue };
+            if phrase.liquid().is_some() {
+                continue;
+            }
             let holders = self.entities[holder].kinds.clone();
             let scene = self.scene;
             let fitting: Vec<String> = holders
@@ -159,7 +172,7 @@ impl<'a> Discourse<'a> {
             }
             let mut narrowed = phrase.clone();
             narrowed.indefinite |= phrase.quantity == Quantity::One && !phrase.definite;
-            let kinds = self.lexicon.inside(&noun.word).unwrap_or(&noun.kinds);
+            let kinds = self.lexicon.inside(&noun.word, &fitting[0]).unwrap_or(&noun.kinds);
             narrowed.head = Head::Noun(Noun {
                 kinds: kinds
                     .iter()
@@ -253,7 +266,11 @@ impl<'a> Discourse<'a> {
                 let most = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).max().unwrap_or(1);
                 self.several(&kinds, most.min(2), phrase, at)
             }
-            Quantity::All => self.every(&kinds[..1.min(kinds.len())], phrase, at),
+            Quantity::All => {
+                // "the towels": of what the word may mean, that of which there are several.
+                kinds.sort_by_key(|kind| self.scene.of_kind(kind).len() < 2);
+                self.every(&kinds[..1.min(kinds.len())], phrase, at)
+            }
         }
     }
 
@@ -382,6 +399,15 @@ impl<'a> Discourse<'a> {
             None if sliced => {}
             None => {
                 let there: usize = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).sum();
+                if there < count
+                    && let Some(alike) = self.alike(kinds, count)
+                {
+                    let text = format!("there are not {count} of \"{}\" here; {alike} is taken", phrase.text);
+                    self.assume(text, 0.6);
+                    return (0..count)
+                        .map(|_| self.add(vec![alike.clone()], Which::Any, &phrase.text))
+                        .collect();
+                }
                 if there < count {
                     self.problem(
                         format!("there are not {count} of \"{}\" here, only {there}", phrase.text),
@@ -401,6 +427,15 @@ impl<'a> Discourse<'a> {
                 .collect();
         }
         (0..count).map(|_| self.add(order.clone(), Which::Any, &phrase.text)).collect()
+    }
+
+    /// A type that is called by the name of one of the types, where there are so many of it.
+    fn alike(&self, kinds: &[String], count: usize) -> Option<String> {
+        let others = kinds.iter().flat_map(|kind| self.lexicon.likes(kind));
+        others
+            .filter(|kind| !kinds.contains(kind))
+            .find(|kind| self.scene.of_kind(kind).len() >= count)
+            .cloned()
     }
 
     /// Every object of the types that is picked out.
@@ -472,6 +507,12 @@ impl<'a> Discourse<'a> {
     }
 }
 
+/// The states of what is full of a liquid.
+pub fn filled(liquid: &str) -> Settings {
+    let word = lamma_domains::goal::PropertyValue::Word(liquid.to_owned());
+    Settings::from([("isFilledWithLiquid".to_owned(), super::yes()), ("fillLiquid".to_owned(), word)])
+}
+
 /// Whether a noun would be taken for the type that an entity is taken for.
 fn names(noun: &Noun, entity: &Entity, scene: &Scene<'_>) -> bool {
     if noun.class {
@@ -482,6 +523,7 @@ fn names(noun: &Noun, entity: &Entity, scene: &Scene<'_>) -> bool {
         || entity.noun == noun.word && noun.kinds.iter().any(|kind| kind == entity.kind())
 }
 
+mod confidence;
 mod fitting;
 mod naming;
 mod reference;

@@ -8,6 +8,7 @@
 mod clause;
 mod effect;
 mod emit;
+mod gloss;
 mod inflect;
 mod lexicon;
 mod mention;
@@ -26,6 +27,7 @@ use crate::{Answer, Clarification, Decomposition, LanguageModel, LmError, Reques
 use clause::Parser;
 use effect::{Change, Fact, Interpreter};
 use emit::{Emitter, Stay};
+pub use gloss::Gloss;
 use lexicon::{Act, Lexicon};
 use mention::{Discourse, Spoken};
 use scene::Scene;
@@ -34,6 +36,12 @@ pub(crate) use text::damerau_levenshtein;
 
 /// Below this confidence it asks.
 const THRESHOLD: f64 = 0.5;
+
+/// A strong situation that explains so many words stands for the whole sentence, not for a clause of it.
+const SURE_WHOLE: usize = 3;
+
+/// A reading this sure is not replaced by what a situation would do.
+const SURE: f64 = 0.8;
 
 /// `true`, as a property's value.
 fn yes() -> PropertyValue {
@@ -64,7 +72,7 @@ impl Offline {
         Ok(Self { lexicon: Lexicon::embedded()? })
     }
 
-    /// With the lexicon of a folder instead: `nouns.toml`, `verbs.toml`, `words.toml`, `situations.toml`.
+    /// With the lexicon of a folder instead: files of the names of those in `domains/household/lexicon`.
     pub fn from_folder(folder: &Path) -> Result<Self, LmError> {
         Ok(Self { lexicon: Lexicon::from_folder(folder)? })
     }
@@ -76,7 +84,7 @@ impl Offline {
 
     /// What it makes of an instruction.
     pub fn read(&self, request: &Request) -> Answer {
-        let scene = Scene::new(&request.objects);
+        let scene = Scene::new(&request.objects, &request.robots);
         let unknown: Vec<&str> = scene.kinds().filter(|kind| !self.lexicon.knows_type(kind)).collect();
         let reading = if unknown.is_empty() {
             read(&request.instruction, &self.lexicon, &scene)
@@ -182,8 +190,16 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         .collect();
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
     let mut reading = word_by_word(&words, lexicon, scene);
+    let strong = situation::ranked(lexicon.situations(), &situation::words_of(&words), true);
+    let explained = strong.first().map_or(0, |(_, explained)| *explained);
     let absent = reading.problems.iter().any(|problem| problem.starts_with("there is no "));
-    if !absent
+    let one_sentence = !words[..words.len().saturating_sub(1)].contains(&".".to_owned());
+    let sure = reading.decomposition.confidence > SURE;
+    if explained >= SURE_WHOLE && one_sentence && !sure && !reading.concrete {
+        if let Some(whole) = as_situation(&words, instruction, lexicon, scene) {
+            reading = whole;
+        }
+    } else if (!absent || explained >= 2)
         && !reading.concrete
         && (reading.decomposition.subtasks.is_empty() || reading.decomposition.confidence < THRESHOLD)
     {
@@ -256,11 +272,10 @@ fn one_clause<'a>(
     let clause = &clauses[index];
     let situations = lexicon.situations();
     let words = situation::words_of(&clause.words);
-    if let Some((strong, _)) = situation::best(situations, &words, true)
-        && !clause.negated
+    if !clause.negated
         && is_weak(clause, lexicon)
         && !says_where(clause, interpreter.discourse.scene)
-        && interpreter.situation(index, strong)
+        && interpreter.first_situation(index, &situation::ranked(situations, &words, true), &words)
     {
         interpreter.discourse.spoken.push(Spoken::default());
         return;
@@ -274,14 +289,11 @@ fn one_clause<'a>(
     // What was named and is not here is not to be replaced by what a situation would do.
     let says_little = is_weak(clause, lexicon)
         || !clause.objects.iter().any(|p| matches!(p.head, syntax::Head::Noun(_) | syntax::Head::Named(_)));
-    if failed
-        && says_little
-        && (!absent || is_weak(clause, lexicon))
-        && let Some((vague, _)) = situation::best(situations, &words, false)
-    {
+    if failed && says_little && (!absent || is_weak(clause, lexicon)) {
+        let ranked = situation::ranked(situations, &words, false);
         let literal = Snapshot::take(interpreter);
         before.restore(interpreter);
-        if interpreter.situation(index, vague) {
+        if interpreter.first_situation(index, &ranked, &words) {
             interpreter.discourse.spoken.push(Spoken::default());
             return;
         }
@@ -355,7 +367,7 @@ struct Snapshot {
     assumptions: Vec<String>,
     problem_list: Vec<String>,
     problems: usize,
-    confidence: f64,
+    confidence: mention::Confidence,
 }
 
 impl Snapshot {
@@ -384,6 +396,7 @@ impl Snapshot {
 
 /// "wash and slice the apple": the first verb's object is said with the second.
 fn share_objects(clauses: &mut [Clause<'_>]) {
+    share_with_a_row_of_verbs(clauses);
     for i in 0..clauses.len().saturating_sub(1) {
         let (front, back) = clauses.split_at_mut(i + 1);
         let (first, second) = (&mut front[i], &mut back[0]);
@@ -394,14 +407,8 @@ fn share_objects(clauses: &mut [Clause<'_>]) {
         {
             first.objects.clone_from(&second.objects);
         }
-        let needs_object = first.verbs.iter().any(|verb| {
-            matches!(
-                verb.act,
-                Act::Set | Act::Heat | Act::Cook | Act::Chill | Act::Hold | Act::Examine | Act::Place
-            )
-        });
-        let is_pronoun = |phrase: &syntax::Phrase| matches!(phrase.head, syntax::Head::Pronoun { .. });
-        let bare = first.objects.is_empty() && first.places.is_empty() && first.complement.is_empty();
+        let needs_object = needs_object(first);
+        let bare = is_bare(first);
         let forward = first.objects.len() == 1 && is_pronoun(&first.objects[0]) && i == 0;
         let said = !second.objects.is_empty() && !second.objects.iter().any(is_pronoun);
         if needs_object && (bare && i == 0 || forward) && said {
@@ -413,6 +420,47 @@ fn share_objects(clauses: &mut [Clause<'_>]) {
     }
 }
 
+/// "wash, slice and chill the tomato": what the last verb is said of holds for all.
+fn share_with_a_row_of_verbs(clauses: &mut [Clause<'_>]) {
+    let row = clauses.iter().take_while(|clause| needs_object(clause) && is_bare(clause)).count();
+    let Some(last) = clauses.get(row).filter(|last| row > 1 && !last.objects.is_empty()) else { return };
+    if last.objects.iter().any(is_pronoun) {
+        return;
+    }
+    let objects = last.objects.clone();
+    let plural = objects.len() > 1;
+    let pronoun = syntax::Phrase::bare(syntax::Head::Pronoun { plural }, if plural { "them" } else { "it" });
+    for clause in &mut clauses[1..=row] {
+        clause.objects = vec![pronoun.clone()];
+    }
+    clauses[0].objects = objects;
+}
+
+fn needs_object(clause: &Clause<'_>) -> bool {
+    clause.verbs.iter().any(|verb| {
+        matches!(
+            verb.act,
+            Act::Set
+                | Act::Heat
+                | Act::Cook
+                | Act::Chill
+                | Act::Hold
+                | Act::Examine
+                | Act::Place
+                | Act::Discard
+        )
+    })
+}
+
+/// Whether a clause is a verb and nothing else.
+fn is_bare(clause: &Clause<'_>) -> bool {
+    clause.objects.is_empty() && clause.places.is_empty() && clause.complement.is_empty()
+}
+
+fn is_pronoun(phrase: &syntax::Phrase) -> bool {
+    matches!(phrase.head, syntax::Head::Pronoun { .. })
+}
+
 fn as_situation(
     words: &[String],
     instruction: &str,
@@ -420,7 +468,7 @@ fn as_situation(
     scene: &Scene<'_>,
 ) -> Option<Reading> {
     let words = situation::words_of(words);
-    let (vague, _) = situation::best(lexicon.situations(), &words, false)?;
+    let ranked = situation::ranked(lexicon.situations(), &words, false);
     let mut discourse = Discourse::new(lexicon, scene);
     let clauses = [Clause {
         text: instruction.trim().to_owned(),
@@ -438,7 +486,7 @@ fn as_situation(
         words: words.clone(),
     }];
     let mut interpreter = Interpreter::new(&mut discourse, &clauses);
-    if !interpreter.situation(0, vague) {
+    if !interpreter.first_situation(0, &ranked, &words) {
         return None;
     }
     let facts = interpreter.facts;
@@ -457,9 +505,14 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
     discourse.note_what_is_so(&facts);
     discourse.bind_names(&facts);
     let subtasks = Emitter::new(&mut discourse, facts, &stays).subtasks(clauses);
-    let confidence = if subtasks.is_empty() { 0.0 } else { discourse.confidence };
+    let confidence = if subtasks.is_empty() { 0.0 } else { discourse.confidence.value() };
     Reading {
-        decomposition: Decomposition { subtasks, assumptions: discourse.assumptions, confidence },
+        decomposition: Decomposition {
+            subtasks,
+            assumptions: discourse.assumptions,
+            confidence,
+            bans: discourse.bans,
+        },
         problems: discourse.problems,
         others: Vec::new(),
         only_goes: !clauses.is_empty() && clauses.iter().all(only_goes),

@@ -4,7 +4,6 @@ use super::clause::Parser;
 use super::inflect;
 use super::lexicon::{LONGEST, Lexicon, Noun};
 use super::syntax::{Head, Phrase, Quantity, is_determiner, is_function_word, preposition};
-use super::text::POSSESSIVE;
 
 /// Noun phrases within noun phrases go no deeper than this.
 const DEEPEST: usize = 4;
@@ -19,17 +18,23 @@ struct Front {
     chained: usize,
 }
 
-impl Parser<'_> {
-    /// One noun phrase at the position, or nothing with the position unchanged.
-    pub(super) fn phrase(&mut self, depth: usize) -> Option<Phrase> {
-        let start = self.position;
-        let mut front = Front {
+impl Front {
+    fn new() -> Self {
+        Self {
             phrase: Phrase::bare(Head::Room, ""),
             quantity: None,
             sliced: false,
             plural: false,
             chained: 0,
-        };
+        }
+    }
+}
+
+impl Parser<'_> {
+    /// One noun phrase at the position, or nothing with the position unchanged.
+    pub(super) fn phrase(&mut self, depth: usize) -> Option<Phrase> {
+        let start = self.position;
+        let mut front = Front::new();
         let head = if depth > DEEPEST { None } else { self.head(&mut front) };
         let Some(head) = head else {
             self.position = start;
@@ -50,7 +55,7 @@ impl Parser<'_> {
         }
         if sliced {
             phrase.states.insert("isSliced".to_owned(), super::yes());
-            if phrase.quantity == Quantity::All && quantity.is_none() {
+            if phrase.quantity == Quantity::All && quantity.is_none() && phrase.head != Head::Slices {
                 phrase.quantity = Quantity::One;
             }
         }
@@ -66,6 +71,9 @@ impl Parser<'_> {
             if word == "," && self.position > start && self.list_of_modifiers() {
                 self.position += 1;
                 continue;
+            }
+            if let Some(head) = self.by_use(front) {
+                return Some(head);
             }
             if let Some(head) = self.pronoun(word, front) {
                 return Some(head);
@@ -83,6 +91,12 @@ impl Parser<'_> {
                 continue;
             }
             if self.measure(front) {
+                continue;
+            }
+            // "a light brown cabinet" is no light.
+            let shade = self.lexicon.longest_small("modifiers", &self.rest()).filter(|&length| length > 1);
+            if let Some(length) = shade.filter(|&length| self.noun_follows(length)) {
+                self.position += length;
                 continue;
             }
             if let Some((noun, plural, length)) = self.longest_noun()
@@ -103,7 +117,7 @@ impl Parser<'_> {
                 return Some(Head::Slices);
             }
             if let Some(length) = self.lexicon.longest_small("modifiers", &self.rest())
-                && self.noun_follows(length)
+                && (self.noun_follows(length) || self.adjective_follows(length))
             {
                 self.position += length;
                 continue;
@@ -152,7 +166,7 @@ impl Parser<'_> {
             return Some(Head::Unknown(next.to_owned()));
         }
         if front.chained < LONGEST
-            && self.longest_noun().is_some()
+            && (self.longest_noun().is_some() || self.modifiers_and_noun_follow())
             && (known_modifier || self.position > start)
         {
             if !known_modifier {
@@ -167,7 +181,11 @@ impl Parser<'_> {
     fn pronoun(&mut self, word: &str, front: &mut Front) -> Option<Head> {
         let next = self.word_at(1);
         let alone = next.is_none_or(|next| {
-            (is_function_word(next) && !is_determiner(next) && next != "of") || ",.".contains(next)
+            (is_function_word(next) && !is_determiner(next) && next != "of")
+                || ",.".contains(next)
+                || word == "both"
+                    && self.lexicon.adjective(&[next]).is_some()
+                    && self.longest_noun_at(self.position + 2).is_none()
         });
         let head = match word {
             "it" if self.is_miswritten_its(word) => return None,
@@ -245,6 +263,9 @@ impl Parser<'_> {
                 continue;
             }
             let words = &rest[..length];
+            if self.is_shelf_of_furniture(words) {
+                continue;
+            }
             // "a box of keys" is a box.
             if words == ["box"] && self.scene.has("Box") {
                 continue;
@@ -283,7 +304,7 @@ impl Parser<'_> {
     fn food_follows(&self, offset: usize) -> bool {
         (offset..offset + 4).any(|at| {
             self.longest_noun_at(self.position + at)
-                .is_some_and(|(noun, _, _)| self.has_affordance(&noun, "sliceable"))
+                .is_some_and(|(noun, _, _)| !noun.class && self.has_affordance(&noun, "sliceable"))
         })
     }
 
@@ -298,37 +319,6 @@ impl Parser<'_> {
     fn is_slices(&self, word: &str) -> bool {
         inflect::singulars(word).iter().any(|s| self.lexicon.is_small("slices", &[s.as_str()]))
             || self.lexicon.is_small("slices", &[word])
-    }
-
-    /// Takes the noun, and the nouns right behind it: of "dresser drawer" the last is the head.
-    fn noun_head(&mut self, noun: Noun, plural: bool, length: usize, front: &mut Front) -> Head {
-        self.position += length;
-        let (mut noun, mut plural) = (noun, plural);
-        while let Some(word) = self.peek() {
-            if word == POSSESSIVE {
-                self.position += 1;
-                front.chained += 1;
-                if front.chained < LONGEST && self.noun_follows(0) {
-                    return self.head(front).unwrap_or(Head::Noun(noun));
-                }
-                plural = true;
-                continue;
-            }
-            if self.is_slices(word) && self.has_affordance(&noun, "sliceable") {
-                front.sliced = true;
-                plural |= word.ends_with('s');
-                self.position += 1;
-                continue;
-            }
-            let Some((next, next_plural, next_length)) = self.longest_noun() else { break };
-            if self.verb_reads_better(next_length) || self.are_two_things(&noun, &next) {
-                break;
-            }
-            (noun, plural) = (next, next_plural);
-            self.position += next_length;
-        }
-        front.plural |= plural;
-        Head::Noun(noun)
     }
 
     /// Whether the next word is rather the verb of a new clause ("... the cup toast the bread").
@@ -405,7 +395,12 @@ impl Parser<'_> {
                         found.push(chosen);
                     }
                 }
-                Some(phrase) => {
+                Some(mut phrase) => {
+                    // "all the cabinets and drawers"
+                    let all = found.last().is_some_and(|last| last.quantity == Quantity::All);
+                    if all && phrase.quantity == Quantity::Plural {
+                        phrase.quantity = Quantity::All;
+                    }
                     // "both the plate and the bowl": one of each.
                     if let [first] = found.as_mut_slice()
                         && first.text.starts_with("both ")
@@ -465,5 +460,7 @@ pub(super) fn nouns<'a>(words: &'a [String], lexicon: &'a Lexicon) -> Vec<NounAt
     (0..words.len()).map(at).collect()
 }
 
+mod compound;
 mod mend;
 mod tail;
+mod usage;

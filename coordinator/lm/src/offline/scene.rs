@@ -5,18 +5,19 @@ use std::collections::{BTreeMap, BTreeSet};
 use lamma_domains::goal::PropertyValue;
 
 use super::lexicon::{Settings, split_camel_case};
-use crate::ObjectView;
+use crate::{ObjectView, RobotView};
 
 /// An index over the objects of a request.
 pub struct Scene<'a> {
     objects: BTreeMap<&'a str, &'a ObjectView>,
     kinds: BTreeMap<&'a str, Vec<&'a ObjectView>>,
     words: BTreeSet<String>,
+    team: &'a [RobotView],
 }
 
 impl<'a> Scene<'a> {
     /// Indexes the objects.
-    pub fn new(objects: &'a [ObjectView]) -> Self {
+    pub fn new(objects: &'a [ObjectView], team: &'a [RobotView]) -> Self {
         let mut kinds: BTreeMap<&str, Vec<&ObjectView>> = BTreeMap::new();
         for object in objects {
             kinds.entry(&object.kind).or_default().push(object);
@@ -30,7 +31,12 @@ impl<'a> Scene<'a> {
             words.insert(phrase.replace(' ', ""));
             words.extend(phrase.split(' ').map(str::to_owned));
         }
-        Self { objects: objects.iter().map(|object| (object.name.as_str(), object)).collect(), kinds, words }
+        Self {
+            objects: objects.iter().map(|object| (object.name.as_str(), object)).collect(),
+            kinds,
+            words,
+            team,
+        }
     }
 
     /// The objects of a type, in the order of their numbers.
@@ -75,6 +81,19 @@ impl<'a> Scene<'a> {
     pub fn surely_accepts(&self, receptacle: &str, kind: &str) -> bool {
         self.accepts(receptacle, kind)
             && self.of_kind(receptacle).iter().any(|object| !object.accepts.is_empty())
+    }
+
+    /// Whether the team is unknown, or each of the skills is somebody's.
+    pub fn team_has(&self, skills: &[&str]) -> bool {
+        let has = |skill: &&str| self.team.iter().any(|robot| robot.skills.iter().any(|s| s == skill));
+        self.team.is_empty() || skills.iter().all(has)
+    }
+
+    /// Whether the team is unknown, or strong enough, together if need be, to carry something of a type.
+    pub fn team_lifts(&self, kind: &str) -> bool {
+        let carries = |robot: &&RobotView| robot.skills.iter().any(|skill| skill == "PickupObject");
+        let strength: f64 = self.team.iter().filter(carries).map(|robot| robot.capacity_kg).sum();
+        self.team.is_empty() || self.of_kind(kind).iter().any(|object| object.mass_kg <= strength)
     }
 
     /// The words of the types' names.

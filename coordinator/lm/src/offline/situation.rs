@@ -3,12 +3,16 @@
 //! A template names types; what the scene has of them is what the goal is about, so one situation fits any
 //! room. The situation whose triggers explain most of the words is taken.
 
+use lamma_domains::goal::PropertyValue;
 use serde::Deserialize;
 
 use super::effect::{Change, Interpreter};
 use super::inflect;
-use super::lexicon::{Settings, squash};
+use super::lexicon::{LONGEST, Settings, squash};
 use super::mention::Which;
+
+/// As many situations are tried as there may be nothing for in the scene.
+const MOST_TRIED: usize = 4;
 
 /// A situation.
 #[derive(Clone, Debug, Deserialize)]
@@ -38,6 +42,9 @@ pub struct Template {
     /// One object of each of these types that is there.
     #[serde(default)]
     pub one_of_each: Vec<String>,
+    /// What the sentence names, as far as it affords this: "the lettuce will wilt".
+    #[serde(default)]
+    pub said: Option<String>,
     /// Its states.
     #[serde(default)]
     pub is: Settings,
@@ -59,19 +66,20 @@ pub struct Template {
 }
 
 impl Situation {
-    /// The trigger words, for spelling.
-    pub fn vocabulary(&self) -> Vec<String> {
-        let words = self.when.iter().flat_map(|pattern| pattern.split([' ', '/', '!']));
-        words.filter(|word| !word.is_empty()).map(str::to_owned).collect()
-    }
-
     /// How many words a trigger explains, if one fits.
     pub fn fits(&self, words: &[String]) -> Option<usize> {
         self.when.iter().filter_map(|pattern| pattern_fits(pattern, words)).max()
     }
 }
 
-fn pattern_fits(pattern: &str, words: &[String]) -> Option<usize> {
+/// The words of triggers, for spelling.
+pub fn vocabulary(when: &[String]) -> Vec<String> {
+    let words = when.iter().flat_map(|pattern| pattern.split([' ', '/', '!']));
+    words.filter(|word| !word.is_empty()).map(str::to_owned).collect()
+}
+
+/// How many words a trigger explains, if it fits.
+pub(super) fn pattern_fits(pattern: &str, words: &[String]) -> Option<usize> {
     // "I am not hungry" is no hunger.
     let denied = words
         .windows(2)
@@ -99,26 +107,36 @@ fn has_word(words: &[String], wanted: &str) -> bool {
     })
 }
 
-/// The situation that explains most of the words.
-pub fn best<'s>(
+/// The situations that explain something of the words and how much, those that explain most first; of those that
+/// explain as much, strong ones, then in the order of the file.
+pub fn ranked<'s>(
     situations: &'s [Situation],
     words: &[String],
     strong_only: bool,
-) -> Option<(&'s Situation, usize)> {
-    let mut best: Option<(&Situation, usize)> = None;
-    for situation in situations.iter().filter(|situation| situation.strong || !strong_only) {
-        if let Some(score) = situation.fits(words)
-            && best.is_none_or(|(_, found)| score > found)
-        {
-            best = Some((situation, score));
-        }
-    }
-    best
+) -> Vec<(&'s Situation, usize)> {
+    let mut found: Vec<(&Situation, usize)> = situations
+        .iter()
+        .filter(|situation| situation.strong || !strong_only)
+        .filter_map(|situation| Some((situation, situation.fits(words)?)))
+        .collect();
+    found.sort_by_key(|(situation, score)| std::cmp::Reverse((*score, situation.strong)));
+    found.truncate(MOST_TRIED);
+    found
 }
 
 impl Interpreter<'_, '_> {
+    /// The first of some situations that the scene has something for; false if there is none.
+    pub fn first_situation(
+        &mut self,
+        index: usize,
+        ranked: &[(&Situation, usize)],
+        words: &[String],
+    ) -> bool {
+        ranked.iter().any(|(situation, _)| self.situation(index, situation, words))
+    }
+
     /// Adds the facts of a situation; false when the scene has nothing for it.
-    pub fn situation(&mut self, index: usize, situation: &Situation) -> bool {
+    pub fn situation(&mut self, index: usize, situation: &Situation, words: &[String]) -> bool {
         self.at_clause(index);
         let before = self.facts.len();
         let mut meant = Vec::new();
@@ -126,7 +144,10 @@ impl Interpreter<'_, '_> {
             if template.otherwise && self.facts.len() > before {
                 continue;
             }
-            let found = self.instances(template);
+            let mut found = self.instances(template, words);
+            if let Some(affordance) = &template.said {
+                found.extend(self.named_in(words, affordance));
+            }
             if found.is_empty() && template.needed {
                 self.facts.truncate(before);
                 return false;
@@ -145,14 +166,47 @@ impl Interpreter<'_, '_> {
         true
     }
 
-    fn instances(&mut self, template: &Template) -> Vec<usize> {
-        let scene = self.discourse.scene;
+    /// The things of the scene that words name and that afford something.
+    fn named_in(&mut self, words: &[String], affordance: &str) -> Vec<usize> {
+        let (lexicon, scene) = (self.discourse.lexicon, self.discourse.scene);
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let mut found = Vec::new();
+        let mut at = 0;
+        while at < words.len() {
+            let longest = (1..=LONGEST.min(words.len() - at)).rev();
+            let noun = longest.map(|length| (lexicon.noun(&words[at..at + length]), length));
+            let Some((noun, plural, length)) =
+                noun.into_iter().find_map(|(noun, length)| noun.map(|(noun, plural)| (noun, plural, length)))
+            else {
+                at += 1;
+                continue;
+            };
+            at += length;
+            let fits = |kind: &&String| scene.has(kind) && scene.affords(kind, affordance);
+            let kinds = noun.kinds.iter().filter(fits).take(if noun.class { usize::MAX } else { 1 });
+            for kind in kinds {
+                let all = plural && scene.of_kind(kind).len() > 1;
+                found.push(self.discourse.entity(kind, if all { Which::All } else { Which::Any }));
+            }
+        }
+        found
+    }
+
+    fn instances(&mut self, template: &Template, words: &[String]) -> Vec<usize> {
+        let (scene, lexicon) = (self.discourse.scene, self.discourse.lexicon);
+        // "read his paper" is about the newspaper, whatever else there is to read.
+        let named = |kind: &&String| {
+            words
+                .iter()
+                .any(|word| lexicon.noun(&[word]).is_some_and(|(noun, _)| noun.kinds.first() == Some(kind)))
+        };
         let mut found = Vec::new();
         for kind in template.each.iter().filter(|kind| scene.has(kind)) {
             let which = if scene.of_kind(kind).len() > 1 { Which::All } else { Which::Any };
             found.push(self.discourse.entity(kind, which));
         }
-        let one = template.one.iter().find(|kind| scene.has(kind));
+        let mut here = template.one.iter().filter(|kind| scene.has(kind));
+        let one = here.clone().find(named).or_else(|| here.next());
         for kind in one.into_iter().chain(template.one_of_each.iter().filter(|kind| scene.has(kind))) {
             found.push(self.discourse.entity(kind, Which::Any));
         }
@@ -164,13 +218,13 @@ impl Interpreter<'_, '_> {
         let scene = self.discourse.scene;
         let kind = self.discourse.entities[entity].kind().to_owned();
         let before = self.facts.len();
-        for (property, value) in &template.is {
+        for (property, value) in &self.discourse.possible_states(entity, template.is.clone()) {
             let possible = match property.as_str() {
                 "isOpen" => scene.affords(&kind, "openable"),
                 "isToggled" => scene.affords(&kind, "toggleable"),
                 "isSliced" => scene.affords(&kind, "sliceable"),
                 _ => true,
-            };
+            } && scene.team_has(skills_for(property, value));
             if possible {
                 self.add(entity, Change::State(property.clone(), value.clone()));
             }
@@ -180,14 +234,29 @@ impl Interpreter<'_, '_> {
         } else {
             template.into.iter().find(|place| scene.accepts(place, &kind)).cloned()
         };
-        if let Some(home) = home {
+        let carried = scene.team_has(&["PickupObject", "PutObject"]) && scene.team_lifts(&kind);
+        if let Some(home) = home.filter(|_| carried) {
             let place = self.discourse.place_of_kind(&home);
             self.add(entity, Change::Inside(place));
         }
-        if template.held {
+        if template.held && scene.team_has(&["PickupObject"]) && scene.team_lifts(&kind) {
             self.add(entity, Change::Held);
         }
         self.facts.len() > before
+    }
+}
+
+/// The skills without which nobody brings a state about.
+fn skills_for(property: &str, value: &PropertyValue) -> &'static [&'static str] {
+    let on = *value == super::yes();
+    match property {
+        "isToggled" if on => &["SwitchOn"],
+        "isToggled" => &["SwitchOff"],
+        "isOpen" if on => &["OpenObject"],
+        "isOpen" => &["CloseObject"],
+        "isSliced" => &["SliceObject"],
+        "isBroken" => &["BreakObject"],
+        _ => &[],
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a sentence is made of: clauses, noun phrases, and the closed classes of English words.
 
-use super::lexicon::{Noun, Settings, Verb};
+use super::lexicon::{Act, Noun, Settings, Verb};
 
 /// How much of what a noun names is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,6 +81,17 @@ impl Phrase {
             with: Vec::new(),
             at: Vec::new(),
             except: Vec::new(),
+        }
+    }
+}
+
+impl Phrase {
+    /// The liquid it speaks of, if it is one.
+    pub fn liquid(&self) -> Option<&str> {
+        match &self.head {
+            Head::Liquid(liquid) => Some(liquid),
+            Head::Noun(noun) => ["water", "wine", "coffee"].into_iter().find(|liquid| noun.word == *liquid),
+            _ => None,
         }
     }
 }
@@ -210,6 +221,20 @@ impl Clause<'_> {
         ]) || !self.says_any(&["is", "are", "was", "were", "left", "s"]) && !self.says_any(&["while"])
     }
 
+    /// Whether its verb is that of the clause before it, not said again.
+    pub fn inherits_from(&self, previous: &Self) -> bool {
+        self.verb_text == previous.verb_text && !self.text.starts_with(&self.verb_text)
+    }
+
+    /// "make sure the door is closed and the lights are off": the second is to be made sure of as well.
+    pub fn go_on(&mut self, previous: &Self) {
+        let keeps = previous.verbs.iter().any(|verb| verb.act == Act::Keep);
+        if keeps && !previous.complement.is_empty() && !self.complement.is_empty() {
+            self.verbs.clone_from(&previous.verbs);
+            self.verb_text.clone_from(&previous.verb_text);
+        }
+    }
+
     /// What is said later but done earlier names what "it" is: "turn on the toaster after putting bread in it".
     pub fn name_pronouns(&mut self, said_before: &Self) {
         let [named] = said_before.objects.as_slice() else { return };
@@ -328,6 +353,9 @@ const PREPOSITIONS: [(&str, Relation); 85] = [
 /// The preposition at the start of the words: its relation and length.
 pub fn preposition(words: &[&str]) -> Option<(Relation, usize)> {
     let first = words.first()?;
+    if let Some(length) = to_one_side_of(words) {
+        return Some((Relation::Near, length));
+    }
     PREPOSITIONS.iter().find_map(|(phrase, relation)| {
         let mut parts = phrase.split(' ');
         if parts.next() != Some(first) {
@@ -337,6 +365,29 @@ pub fn preposition(words: &[&str]) -> Option<(Relation, usize)> {
         let fits = words.len() >= length && phrase.split(' ').zip(words).all(|(a, b)| a == *b);
         fits.then_some((*relation, length))
     })
+}
+
+/// "to the bottom left of", "to the far right side of": its length.
+fn to_one_side_of(words: &[&str]) -> Option<usize> {
+    const SIDES: [&str; 13] = [
+        "left",
+        "right",
+        "side",
+        "hand",
+        "far",
+        "near",
+        "bottom",
+        "top",
+        "upper",
+        "lower",
+        "immediate",
+        "other",
+        "rear",
+    ];
+    let sides = words.strip_prefix(&["to", "the"])?;
+    let length = sides.iter().take_while(|word| SIDES.contains(word)).count();
+    let beside = sides[..length].iter().any(|word| ["left", "right", "side"].contains(word));
+    (beside && sides.get(length) == Some(&"of")).then_some(length + 3)
 }
 
 const FUNCTION_WORDS: [&str; 98] = [

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use lamma_coordinator::result::{OutcomeKind, RunResult};
 use lamma_domains::robots::team;
+use lamma_domains::world::Rules;
 use serde_json::{Value, json};
 
 use crate::batch;
@@ -16,6 +17,7 @@ use crate::error::Failure;
 use crate::exit;
 use crate::json;
 use crate::launch::launch;
+use crate::method::Variant;
 use crate::out::say;
 use crate::spec::{RunSpec, Task};
 use crate::suite::{self, Entry, Suite};
@@ -23,7 +25,7 @@ use crate::supervise::RunDir;
 use crate::table;
 use crate::watch::Silent;
 use crate::world::{Household, World, WorldSource};
-use crate::{events, published, references, results};
+use crate::{ablation, events, published, references, results};
 
 /// One finished task.
 pub struct Finished {
@@ -42,6 +44,7 @@ pub fn bench(args: &BenchArgs) -> Result<u8, Failure> {
     if let Some(folder) = &args.codmap {
         return super::codmap::bench(args, folder);
     }
+    let variants = Variant::of(args)?;
     let mut suite = suite::read(args)?;
     if let Some(only) = &args.only {
         suite.entries.retain(|e| e.task.id.contains(only.as_str()));
@@ -59,17 +62,30 @@ pub fn bench(args: &BenchArgs) -> Result<u8, Failure> {
     for note in &suite.notes {
         eprintln!("{note}");
     }
+    let folder = RunDir::create(args.common.run_dir.as_deref()).map_err(Failure::bad_input)?;
     let start = Instant::now();
-    let finished = run_all(args, &suite)?;
-    report(args, &suite, &finished, start.elapsed().as_secs_f64())?;
-    let broken = finished.iter().any(|f| f.result.outcome == OutcomeKind::Error);
+    let mut runs = Vec::new();
+    for variant in variants {
+        let runs_in = match args.without.is_empty() {
+            true => folder.path().to_path_buf(),
+            false => folder.path().join(variant.to_string()),
+        };
+        let finished = run_all(args, &variant, &runs_in, &suite)?;
+        runs.push((variant, finished));
+    }
+    report(args, &suite, &runs, start.elapsed().as_secs_f64())?;
+    let broken = runs.iter().flat_map(|(_, f)| f).any(|f| f.result.outcome == OutcomeKind::Error);
     Ok(if broken { exit::FAULT } else { exit::SUCCESS })
 }
 
-fn run_all(args: &BenchArgs, suite: &Suite) -> Result<Vec<Finished>, Failure> {
-    let folder = RunDir::create(args.common.run_dir.as_deref()).map_err(Failure::bad_input)?;
+fn run_all(
+    args: &BenchArgs,
+    variant: &Variant,
+    folder: &Path,
+    suite: &Suite,
+) -> Result<Vec<Finished>, Failure> {
     let names: Vec<String> = suite.entries.iter().map(|entry| entry.task.id.clone()).collect();
-    let work = |index: usize| run_one(args, folder.path(), index, &suite.entries[index]);
+    let work = |index: usize| run_one(args, variant, folder, index, &suite.entries[index]);
     Ok(batch::each(&names, args.jobs, work, |index, f| line(&suite.entries[index], &f.result)))
 }
 
@@ -85,9 +101,9 @@ fn line(entry: &Entry, result: &RunResult) -> String {
     format!("{:<28} {outcome:<20} {makespan}{reason}", entry.task.id)
 }
 
-fn run_one(args: &BenchArgs, folder: &Path, index: usize, entry: &Entry) -> Finished {
+fn run_one(args: &BenchArgs, variant: &Variant, folder: &Path, index: usize, entry: &Entry) -> Finished {
     let folder = folder.join(folder_name(index, &entry.task.id));
-    let (result, mut json, compat) = match try_one(args, &folder, entry) {
+    let (result, mut json, compat) = match try_one(args, variant, &folder, entry) {
         Ok(run) => run,
         Err(failure) => {
             let kind =
@@ -125,13 +141,15 @@ fn folder_name(index: usize, id: &str) -> String {
 
 fn try_one(
     args: &BenchArgs,
+    variant: &Variant,
     folder: &Path,
     entry: &Entry,
 ) -> Result<(RunResult, Value, Option<Compat>), Failure> {
     if let Some(why) = &entry.impossible {
         return Err(Failure::bad_input(format!("the goal cannot hold in this scene: {why}")));
     }
-    let spec = spec(args, entry)?;
+    let mut spec = spec(args, entry)?;
+    variant.apply(&mut spec);
     let world = Arc::new(spec.world()?);
     let World::Household(setup) = &*world else {
         return Err(Failure::fault("a suite's task is a household's"));
@@ -155,41 +173,53 @@ fn spec(args: &BenchArgs, entry: &Entry) -> Result<RunSpec, Failure> {
         scene: task.scene.clone(),
         team: team(&task.team).map_err(Failure::bad_input)?,
         objects: task.objects.clone(),
-        rules: task.rules.clone(),
+        rules: Rules { travel: task.rules.travel || args.common.travel, ..task.rules.clone() },
         task: wanted,
         score: Some(task.goal.clone()),
     };
     let mut spec = spec_from(&args.common, WorldSource::Household(household));
     spec.id = task.id.clone();
     spec.events = script(&args.common)?;
-    spec.reference = task.reference.map(|r| (f64::from(r.makespan), r.steps as usize));
+    // The file's reference is in unit steps, unless the task itself asks for travel.
+    let known = task.reference.filter(|_| !args.common.travel || task.rules.travel);
+    spec.reference = known.map(|r| (f64::from(r.makespan), f64::from(r.steps)));
     Ok(spec)
 }
 
-fn report(args: &BenchArgs, suite: &Suite, finished: &[Finished], seconds: f64) -> Result<(), Failure> {
-    let rows = table::rows(suite, finished);
-    let value = json!({
-        "suite": suite.name,
-        "seed": args.common.seed,
-        "tasks": finished.iter().map(|f| &f.json).collect::<Vec<_>>(),
-        "table": rows.iter().map(|r| (r.name.clone(), r.json())).collect::<serde_json::Map<_, _>>(),
-    });
+fn report(
+    args: &BenchArgs,
+    suite: &Suite,
+    runs: &[(Variant, Vec<Finished>)],
+    seconds: f64,
+) -> Result<(), Failure> {
+    let values: Vec<Value> = runs.iter().map(|(variant, f)| value(args, variant, suite, f)).collect();
     if let Some(out) = &args.out {
-        results::write(out, &value, suite, finished)?;
+        for ((variant, finished), value) in runs.iter().zip(&values) {
+            let out = if runs.len() == 1 { out.clone() } else { out.join(variant.to_string()) };
+            results::write(&out, value, suite, finished)?;
+        }
     }
     match args.common.format {
-        Format::Json => say(serde_json::to_string(&value).map_err(Failure::fault)?),
+        Format::Json => {
+            // One object, as ever; an ablation has one for each of its rows.
+            let json = match values.as_slice() {
+                [one] => one.clone(),
+                several => json!({ "suite": suite.name, "seed": args.common.seed, "ablation": several }),
+            };
+            say(serde_json::to_string(&json).map_err(Failure::fault)?);
+        }
         Format::Text => {
-            say(table::text(&suite.name, &rows).trim_end());
-            let n = finished.len();
-            say(table::references(suite, n));
-            if args.compat {
-                say(table::compat(finished));
+            for (variant, finished) in runs {
+                print(args, variant, suite, finished);
+            }
+            if runs.len() > 1 {
+                let rows: Vec<_> = runs.iter().map(|(v, f)| (v, table::rows(suite, f))).collect();
+                say(ablation::text(&rows).trim_end());
             }
             if suite.has_the_papers_categories() {
                 say(published::text().trim_end());
             }
-            say("M/LB, proved: makespan / proved lower bound, and the share of successes where they meet");
+            let n: usize = runs.iter().map(|(_, f)| f.len()).sum();
             say(format_args!(
                 "{n} tasks in {seconds:.1} s; seed {}; goals judged on the simulator's state",
                 args.common.seed
@@ -197,4 +227,31 @@ fn report(args: &BenchArgs, suite: &Suite, finished: &[Finished], seconds: f64) 
         }
     }
     Ok(())
+}
+
+fn value(args: &BenchArgs, variant: &Variant, suite: &Suite, finished: &[Finished]) -> Value {
+    let rows = table::rows(suite, finished);
+    let mut value = json!({
+        "suite": suite.name,
+        "seed": args.common.seed,
+        "tasks": finished.iter().map(|f| &f.json).collect::<Vec<_>>(),
+        "table": rows.iter().map(|r| (r.name.clone(), r.json())).collect::<serde_json::Map<_, _>>(),
+    });
+    if *variant != Variant::default() || !args.without.is_empty() {
+        value["method"] = json!(variant.to_string());
+    }
+    value
+}
+
+fn print(args: &BenchArgs, variant: &Variant, suite: &Suite, finished: &[Finished]) {
+    let name = match *variant == Variant::default() {
+        true => suite.name.clone(),
+        false => format!("{}, {variant} with {}", suite.name, args.common.lm),
+    };
+    say(table::text(&name, &table::rows(suite, finished)).trim_end());
+    say(table::references(suite, finished.len(), args.common.travel));
+    if args.compat {
+        say(table::compat(finished));
+    }
+    say("M/LB, proved: makespan / proved lower bound, and the share of successes where they meet");
 }

@@ -30,19 +30,17 @@ pub fn host(_args: &HostArgs) -> Result<u8, Failure> {
 #[cfg(feature = "zenoh")]
 mod spread {
     use std::sync::Arc;
-    use std::time::Instant;
 
     use lamma_bus::iceoryx::Run;
 
     use super::{Failure, HostArgs};
-    use crate::cli::{BusArg, Format};
-    use crate::commands::run::lines;
-    use crate::launch::{Launched, agents, limit, supervise};
-    use crate::out::say;
+    use crate::cli::BusArg;
+    use crate::exit;
+    use crate::host::Host;
+    use crate::launch::{agents, see_through};
     use crate::process_host::{ProcessHost, member};
     use crate::spec::RunSpec;
     use crate::supervise::{Ending, Event, Patience, Supervisor};
-    use crate::{exit, json, show};
 
     /// Starts of a bridge that fails again and again.
     const TRIES: u32 = 5;
@@ -51,21 +49,11 @@ mod spread {
     pub fn hub(args: &HostArgs, spec: &Arc<RunSpec>) -> Result<u8, Failure> {
         let listen =
             args.listen.as_ref().ok_or_else(|| Failure::bad_input("the hub needs --listen ENDPOINT"))?;
-        let started = Instant::now();
         let bridge = vec!["--listen".into(), listen.into()];
-        let host = ProcessHost::start_hub(spec, &args.run_dir, bridge)?;
-        let (result, processes) = supervise(Box::new(host), limit(spec), lines(args.format).as_mut())?;
-        let folder = args.run_dir.clone();
-        let launched = Launched { result, processes, folder, elapsed: started.elapsed() };
-        let json = json::run_of(&launched, BusArg::Iceoryx2, spec.seed, &spec.lm.spec);
-        let file = launched.folder.join("result.json");
-        let text = serde_json::to_string_pretty(&json).map_err(Failure::fault)?;
-        std::fs::write(&file, text).map_err(|e| Failure::io("write", &file, &e))?;
-        match args.format {
-            Format::Json => say(serde_json::to_string(&json).map_err(Failure::fault)?),
-            Format::Text => say(show::result(&launched.result).trim_end()),
-        }
-        Ok(exit::of(launched.result.outcome))
+        let start = || -> Result<Box<dyn Host>, Failure> {
+            Ok(Box::new(ProcessHost::start_hub(spec, &args.run_dir, bridge)?))
+        };
+        see_through(start, spec, BusArg::Iceoryx2, &args.run_dir, args.format)
     }
 
     /// A host of robots. Ends when they have.

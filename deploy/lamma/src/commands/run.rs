@@ -5,7 +5,7 @@ use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use lamma_coordinator::Patience;
+use lamma_coordinator::{Method, Patience};
 use lamma_domains::robots::{Member, team};
 use lamma_domains::world::Rules;
 
@@ -45,6 +45,11 @@ pub fn spec_of(args: &RunArgs) -> Result<RunSpec, Failure> {
 
 /// What the run is about.
 fn source(args: &RunArgs) -> Result<WorldSource, Failure> {
+    if args.common.travel && args.scene.is_none() {
+        return Err(Failure::bad_input(
+            "--travel is for a scene: PDDL files state their own durations (:durative-action)",
+        ));
+    }
     if let Some([domain, problem]) = args.pddl.as_deref() {
         return WorldSource::pddl(domain, problem);
     }
@@ -57,7 +62,7 @@ fn source(args: &RunArgs) -> Result<WorldSource, Failure> {
         scene: args.scene.clone().unwrap_or_default(),
         team: team(&members).map_err(Failure::bad_input)?,
         objects: None,
-        rules: Rules::default(),
+        rules: Rules { travel: args.common.travel, ..Rules::default() },
         task: Task::Instruction { text, assume: args.common.assume },
         score: None,
     }))
@@ -78,6 +83,7 @@ pub fn spec_from(common: &CommonArgs, source: WorldSource) -> RunSpec {
         source,
         reference: None,
         allocator: common.allocator,
+        method: Method::default(),
         solve_only: false,
         lm: lm_spec(common),
         // Bounded by the parser of the option.
@@ -112,6 +118,7 @@ fn lm_spec(common: &CommonArgs) -> LmSpec {
         url: common.lm_url.clone(),
         model: common.lm_model.clone(),
         lexicon: common.lexicon.clone(),
+        ..LmSpec::default()
     }
 }
 

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde_json::json;
 
-use crate::cli::{Format, ScaleArgs};
+use crate::cli::{BusArg, Format, ScaleArgs};
 use crate::error::Failure;
 use crate::exit;
 use crate::out::say;
@@ -18,6 +18,17 @@ const HEADER: &str = "robots  procs  start s  plan s   act s  private KiB/robot 
 
 /// Measures each size, prints the table and writes the plot; 0 if all came to their end and left nothing.
 pub fn scale(args: &ScaleArgs) -> Result<u8, Failure> {
+    match args.bus {
+        BusArg::Inproc => {
+            return Err(Failure::bad_input("a team of processes needs --bus iceoryx2 or zenoh"));
+        }
+        BusArg::Zenoh if args.workers.is_some() => {
+            return Err(Failure::bad_input(
+                "--workers is for --bus iceoryx2: over zenoh each robot is a process",
+            ));
+        }
+        BusArg::Zenoh | BusArg::Iceoryx2 => {}
+    }
     let folder = RunDir::create(args.run_dir.as_deref()).map_err(Failure::bad_input)?;
     if args.format == Format::Text {
         say(HEADER);
@@ -25,6 +36,7 @@ pub fn scale(args: &ScaleArgs) -> Result<u8, Failure> {
     let mut levels: Vec<Level> = Vec::new();
     for &agents in &args.agents {
         let sizes = Sizes {
+            bus: args.bus,
             agents,
             workers: args.workers,
             rounds: args.rounds.unwrap_or((MEETINGS / u32::from(agents)).clamp(20, 200)),
@@ -50,7 +62,7 @@ pub fn scale(args: &ScaleArgs) -> Result<u8, Failure> {
         }
         Format::Json => {
             let value = json!({
-                "bus": "iceoryx2",
+                "bus": args.bus.name(),
                 "seed": args.seed,
                 "workers": args.workers,
                 "plot": args.plot,

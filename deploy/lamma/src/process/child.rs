@@ -1,5 +1,6 @@
 //! The processes themselves: `lamma robot`, `lamma coordinator`, `lamma simulator`.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use lamma_bus::Bus;
@@ -17,14 +18,19 @@ use crate::spec::RunSpec;
 pub fn robot(args: &ChildArgs) -> Result<u8, Failure> {
     let spec = RunSpec::read(&args.run_dir)?;
     let first = AgentId(args.agent);
-    let seat = args.scope.as_ref().map_or(args.agent..args.agent + 1, |scope| scope.seat_mates(first));
     let mut robots = Vec::new();
-    for agent in seat.map(AgentId) {
+    for agent in seat(args).map(AgentId) {
         robots.push((Node::Robot(agent), robot_parts(&spec, &args.run_dir, agent)?.machine));
     }
     let mut bus = enter(args, &spec, Node::Robot(first))?;
     drive_crowd(&mut robots, bus.as_mut(), Settings::default(), vec![planner()]).map_err(Failure::fault)?;
     Ok(exit::SUCCESS)
+}
+
+/// The robots of this process: the one it is called by, and all that share its endpoint.
+pub fn seat(args: &ChildArgs) -> Range<u16> {
+    let alone = args.agent..args.agent.saturating_add(1);
+    args.scope.as_ref().map_or(alone, |scope| scope.seat_mates(AgentId(args.agent)))
 }
 
 /// The coordinator, until the run is over. Without a launcher it watches over the run itself.

@@ -7,21 +7,23 @@ pub mod bridge;
 pub mod child;
 pub mod join;
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use lamma_bus::driver::Worker;
-use lamma_coordinator::decompose::{decompose, given, score_goal};
-use lamma_coordinator::house::team;
+use lamma_coordinator::decompose::{Instruction, decompose, given, score_goal, write};
+use lamma_coordinator::house::{team, travel};
+use lamma_coordinator::written::{NotWritten, WriteInput};
 use lamma_coordinator::{
-    AllocationRule, Coordinator, CoordinatorConfig, CoordinatorDone, CoordinatorJob, Mission, ScoreGoal,
-    Team, Understanding, Understood,
+    AllocationRule, Author, Coordinator, CoordinatorConfig, CoordinatorDone, CoordinatorJob, Mission,
+    ScoreGoal, Team, Understanding, Understood,
 };
 use lamma_domains::world::WorldSetup;
-use lamma_lm::LanguageModel;
-use lamma_pddl::ast::Domain;
+use lamma_lm::{LanguageModel, Script};
+use lamma_pddl::ast::{Domain, GroundAtom};
 use lamma_pddl::multi_agent::{Part, TeamTask};
 use lamma_pddl::{Name, Source, check_domain, parse_domain};
 use lamma_planner::MakespanLimits;
@@ -125,6 +127,7 @@ fn household_world(spec: &RunSpec, world: &WorldSetup) -> Result<WorldConfig, Fa
         on_lost: world.on_lost.clone(),
         step_ms: spec.step_ms,
         events: events::resolve(&script, world)?,
+        travel: travel(world).map(Arc::new),
     })
 }
 
@@ -142,6 +145,7 @@ fn task_world(spec: &RunSpec, task: &TeamTask) -> WorldConfig {
         on_lost: None,
         step_ms: spec.step_ms,
         events: Vec::new(),
+        travel: None,
     }
 }
 
@@ -214,6 +218,7 @@ pub fn coordinator_parts(
             AllocatorArg::Shortest => AllocationRule::Shortest,
             AllocatorArg::Lm => AllocationRule::AsAdvised,
         },
+        method: spec.method,
         solve_only: spec.solve_only,
         expansions: EXPANSIONS,
         makespan: makespan_limits(spec),
@@ -222,18 +227,45 @@ pub fn coordinator_parts(
         patience: spec.patience,
     })
     .map_err(Failure::fault)?;
-    let mut model = language_model(&spec.lm, spec.seed)?;
-    let instruction = spec.instruction();
-    let work = move |job: CoordinatorJob, cancel: &AtomicBool| {
-        let understand = |facts, cancel: &AtomicBool| match (&instruction, household.as_deref()) {
-            (Some(instruction), Some(World::Household(setup))) => {
-                decompose(model.as_mut(), setup, &facts, instruction, cancel)
-            }
-            _ => Understood::Failed("this run has no instruction".into()),
-        };
-        job.run(understand, cancel)
-    };
+    let model = language_model(&spec.lm, spec.seed)?;
+    let mut reader = Reader { model, instruction: spec.instruction(), household };
+    let work = move |job: CoordinatorJob, cancel: &AtomicBool| job.run(&mut reader, cancel);
     Ok(Parts { machine, workers: vec![Box::new(work)] })
+}
+
+/// Who asks the language model.
+struct Reader {
+    model: Box<dyn LanguageModel>,
+    instruction: Option<Instruction>,
+    household: Option<Arc<World>>,
+}
+
+/// What is said where there is nothing to read.
+const NO_INSTRUCTION: &str = "this run has no instruction";
+
+impl Author for Reader {
+    fn understand(&mut self, facts: BTreeSet<GroundAtom>, cancel: &AtomicBool) -> Understood {
+        match (&self.instruction, self.household.as_deref()) {
+            (Some(instruction), Some(World::Household(setup))) => {
+                decompose(self.model.as_mut(), setup, &facts, instruction, cancel)
+            }
+            _ => Understood::Failed(NO_INSTRUCTION.into()),
+        }
+    }
+
+    fn write(
+        &mut self,
+        input: &WriteInput,
+        check: &dyn Fn(&Script) -> Vec<String>,
+        cancel: &AtomicBool,
+    ) -> Result<Script, NotWritten> {
+        match (&self.instruction, self.household.as_deref()) {
+            (Some(instruction), Some(World::Household(setup))) => {
+                write(self.model.as_mut(), setup, input, instruction, check, cancel)
+            }
+            _ => Err(NotWritten::Failed(NO_INSTRUCTION.into())),
+        }
+    }
 }
 
 /// What may be spent on a shorter plan. Without a wish of the person's no clock is asked, so that the same input
@@ -252,12 +284,16 @@ fn makespan_limits(spec: &RunSpec) -> MakespanLimits {
 
 /// The language model of the run. Its key, if it needs one, comes from the environment alone.
 pub fn language_model(lm: &LmSpec, seed: u64) -> Result<Box<dyn LanguageModel>, Failure> {
+    let defaults = lamma_lm::Options::default();
     let options = lamma_lm::Options {
         base_url: lm.url.clone(),
         model: lm.model.clone(),
         seed,
         lexicon: lm.lexicon.clone(),
-        ..lamma_lm::Options::default()
+        wording: lm.wording,
+        fallback: !lm.alone,
+        repairs: if lm.unchecked { 0 } else { defaults.repairs },
+        ..defaults
     };
     lamma_lm::from_spec(&lm.spec, &options).map_err(Failure::bad_input)
 }

@@ -9,7 +9,7 @@ use lamma_protocol::message::{
     Report, Step,
 };
 use lamma_protocol::{
-    AgentId, Epoch, Frame, Input, Machine, Output, PackageId, Repeat, StepIndex, Tick, Topic,
+    AgentId, Epoch, Frame, Input, Machine, Output, PackageId, SaidToEach, StepIndex, Tick, Topic,
 };
 use serde::{Deserialize, Serialize};
 
@@ -55,7 +55,7 @@ pub struct RallyCoordinator {
     phase: Phase,
     joined: Vec<bool>,
     plans: Vec<Option<Vec<Act>>>,
-    directives: Vec<Option<(Directive, Repeat)>>,
+    directives: SaidToEach<Directive>,
     world_seen: bool,
     now: Tick,
     limit: Tick,
@@ -72,7 +72,7 @@ impl RallyCoordinator {
             phase: Phase::Joining { left: agents },
             joined: vec![false; agents],
             plans: vec![None; agents],
-            directives: vec![None; agents],
+            directives: SaidToEach::nothing(agents),
             world_seen: false,
             now: Tick(0),
             limit: Tick(0).after_ms(limit_ms),
@@ -224,9 +224,7 @@ impl RallyCoordinator {
 
     fn direct(&mut self, agent: AgentId, order: Order) {
         let directive = Directive { epoch: EPOCH, order };
-        let mut repeat = Repeat::default();
-        repeat.news(self.now);
-        self.directives[agent.index()] = Some((directive.clone(), repeat));
+        self.directives.news(agent, directive.clone(), self.now);
         self.outputs.push_back(Output::Publish(Topic::Directive(agent), Message::Directive(directive)));
     }
 
@@ -263,14 +261,9 @@ impl RallyCoordinator {
         if matches!(self.phase, Phase::Granting) {
             self.say_grant();
         }
-        for (agent, said) in (0..).map(AgentId).zip(&mut self.directives) {
-            if let Some((directive, repeat)) = said
-                && repeat.take(self.now)
-            {
-                let again = Message::Directive(directive.clone());
-                self.outputs.push_back(Output::Publish(Topic::Directive(agent), again));
-            }
-        }
+        let due = self.directives.due(self.now);
+        self.outputs
+            .extend(due.map(|(agent, d)| Output::Publish(Topic::Directive(agent), Message::Directive(d))));
         self.say_outcome();
     }
 }

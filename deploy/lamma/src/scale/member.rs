@@ -2,8 +2,8 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use lamma_bus::Bus;
 use lamma_bus::driver::{Settings, drive, drive_crowd};
-use lamma_bus::iceoryx::Endpoint;
 use lamma_protocol::{AgentId, Envelope, Input, Message, Node, Tick, Topic};
 use lamma_robot::{Robot, RobotConfig};
 use lamma_simulator::Arbiter;
@@ -13,6 +13,8 @@ use super::task::Rally;
 use crate::cli::{RallyArgs, RallyRole};
 use crate::error::Failure;
 use crate::exit;
+use crate::process::child::seat;
+use crate::process::join::{Place, open};
 use crate::process::planner;
 use crate::spec::EXPANSIONS;
 
@@ -33,18 +35,23 @@ pub fn member(args: &RallyArgs) -> Result<u8, Failure> {
     Ok(exit::SUCCESS)
 }
 
+fn join(args: &RallyArgs, rally: &Rally, node: Node) -> Result<Box<dyn Bus>, Failure> {
+    open(&args.child, Place { run: super::RUN, agents: rally.agents }, node)
+}
+
 fn coordinator(args: &RallyArgs) -> Result<(), Failure> {
-    let mut machine = RallyCoordinator::new(Rally::read(&args.run_dir)?, args.limit_ms);
-    let mut bus = Endpoint::open(&args.scope, Node::Coordinator).map_err(Failure::fault)?;
-    drive(&mut machine, &mut bus, Settings::default(), Vec::new()).map_err(Failure::fault)?;
+    let rally = Rally::read(&args.child.run_dir)?;
+    let mut machine = RallyCoordinator::new(rally, args.limit_ms);
+    let mut bus = join(args, &rally, Node::Coordinator)?;
+    drive(&mut machine, bus.as_mut(), Settings::default(), Vec::new()).map_err(Failure::fault)?;
     Ok(())
 }
 
 fn simulator(args: &RallyArgs) -> Result<(), Failure> {
-    let rally = Rally::read(&args.run_dir)?;
-    let domain = Rally::domain(&args.run_dir).map_err(Failure::fault)?;
+    let rally = Rally::read(&args.child.run_dir)?;
+    let domain = Rally::domain(&args.child.run_dir).map_err(Failure::fault)?;
     let mut machine = Arbiter::new(rally.world(domain)).map_err(Failure::fault)?;
-    let mut bus = Endpoint::open(&args.scope, Node::Simulator).map_err(Failure::fault)?;
+    let mut bus = join(args, &rally, Node::Simulator)?;
     let asked: Arc<Mutex<Vec<u64>>> = Arc::default();
     let seen = Arc::clone(&asked);
     let record = move |now: Tick, _: Node, input: &Input<'_, ()>| {
@@ -58,17 +65,18 @@ fn simulator(args: &RallyArgs) -> Result<(), Failure> {
         }
     };
     let settings = Settings { record: Some(Box::new(record)), ..Settings::default() };
-    drive(&mut machine, &mut bus, settings, Vec::new()).map_err(Failure::fault)?;
+    drive(&mut machine, bus.as_mut(), settings, Vec::new()).map_err(Failure::fault)?;
     let asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
-    let path = args.run_dir.join(LEAD_FILE);
+    let path = args.child.run_dir.join(LEAD_FILE);
     let text = serde_json::to_string(&*asked).map_err(Failure::fault)?;
     std::fs::write(&path, text).map_err(|e| Failure::io("write", &path, &e))
 }
 
 /// All robots of one seat: one, or as many as a worker hosts.
 fn robots(args: &RallyArgs) -> Result<(), Failure> {
-    let first = AgentId(args.agent);
-    let domain = Rally::domain(&args.run_dir).map(Arc::new);
+    let rally = Rally::read(&args.child.run_dir)?;
+    let first = AgentId(args.child.agent);
+    let domain = Rally::domain(&args.child.run_dir).map(Arc::new);
     let robot = |id| {
         let config = RobotConfig {
             id,
@@ -79,9 +87,9 @@ fn robots(args: &RallyArgs) -> Result<(), Failure> {
         };
         (Node::Robot(id), Robot::new(config))
     };
-    let mut robots: Vec<(Node, Robot)> = args.scope.seat_mates(first).map(AgentId).map(robot).collect();
-    let mut bus = Endpoint::open(&args.scope, Node::Robot(first)).map_err(Failure::fault)?;
+    let mut robots: Vec<(Node, Robot)> = seat(&args.child).map(AgentId).map(robot).collect();
+    let mut bus = join(args, &rally, Node::Robot(first))?;
     let workers = vec![planner()];
-    drive_crowd(&mut robots, &mut bus, Settings::default(), workers).map_err(Failure::fault)?;
+    drive_crowd(&mut robots, bus.as_mut(), Settings::default(), workers).map_err(Failure::fault)?;
     Ok(())
 }

@@ -12,12 +12,14 @@ use std::path::Path;
 use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
-use lamma_bus::iceoryx::{Endpoint, Run};
 use lamma_bus::{Bus, Received};
 use lamma_protocol::message::{Command, Outcome};
 use lamma_protocol::{Envelope, Message, Node, Revision, Topic};
 
+use crate::cli::BusArg;
 use crate::error::Failure;
+use crate::meeting::Meeting;
+use crate::process::join::Place;
 use crate::supervise::{Event, Patience, Spec, Supervisor, log_file};
 use coordinator::Outcomes;
 pub use measure::{Level, Spread};
@@ -28,6 +30,9 @@ use task::Rally;
 /// How long the supervisor sleeps when nothing happens.
 const PULSE: Duration = Duration::from_millis(100);
 
+/// What a rally is called on a network; its router is its own.
+const RUN: &str = "rally";
+
 /// How long a team may take beyond its own limit before it counts as hung.
 const GRACE: Duration = Duration::from_secs(10);
 
@@ -37,6 +42,8 @@ const MEMORY_SAMPLES: usize = 64;
 /// What is to be measured.
 #[derive(Clone, Copy, Debug)]
 pub struct Sizes {
+    /// Over what.
+    pub bus: BusArg,
     /// Robots.
     pub agents: u16,
     /// Processes that host them; as many as there are robots if None.
@@ -63,16 +70,17 @@ pub fn run(sizes: &Sizes, folder: &Path) -> Result<Level, Failure> {
     rally.write(folder)?;
     let start = Instant::now();
     let cpu_before = measure::cpu_of_children();
-    let run = Run::create_seated(sizes.agents, sizes.per_seat()).map_err(Failure::fault)?;
-    let files = run.scope().clone();
+    let place = Place { run: RUN, agents: sizes.agents };
+    let meeting = Meeting::create(sizes.bus, place, sizes.per_seat())?;
+    let files = meeting.scope().cloned();
     let (watched, pids) = {
-        let mut team = Team::start(&run, sizes, folder, start)?;
+        let mut team = Team::start(&meeting, sizes, folder, start)?;
         let watched = team.watch(sizes.limit + GRACE);
         let pids = team.pids.clone();
         team.end();
         (watched, pids)
     };
-    run.end().map_err(Failure::fault)?;
+    meeting.end()?;
     let total = start.elapsed();
     let (outcomes, started, memory) = watched?;
     if let Some(why) = outcomes.failure {
@@ -96,7 +104,7 @@ pub fn run(sizes: &Sizes, folder: &Path) -> Result<Level, Failure> {
         total_s: total.as_secs_f64(),
         cpu_s: (measure::cpu_of_children() - cpu_before).as_secs_f64(),
         processes_left: measure::alive(&pids),
-        files_left: lamma_bus::iceoryx::left_over(&files).len(),
+        files_left: files.map_or(0, |scope| lamma_bus::iceoryx::left_over(&scope).len()),
     })
 }
 
@@ -104,7 +112,7 @@ pub fn run(sizes: &Sizes, folder: &Path) -> Result<Level, Failure> {
 struct Team {
     supervisor: Option<Supervisor>,
     events: Receiver<Event>,
-    bus: Endpoint,
+    bus: Box<dyn Bus>,
     start: Instant,
     pids: Vec<u32>,
     /// Robots that each of the seats hosts, beside its process.
@@ -113,8 +121,8 @@ struct Team {
 }
 
 impl Team {
-    fn start(run: &Run, sizes: &Sizes, folder: &Path, start: Instant) -> Result<Team, Failure> {
-        let bus = run.open(Node::Supervisor).map_err(Failure::fault)?;
+    fn start(meeting: &Meeting, sizes: &Sizes, folder: &Path, start: Instant) -> Result<Team, Failure> {
+        let bus = meeting.open(Node::Supervisor)?;
         let (supervisor, events) = Supervisor::start(Some(bus.waker())).map_err(Failure::fault)?;
         let mut team = Team {
             supervisor: Some(supervisor),
@@ -125,33 +133,28 @@ impl Team {
             hosts: Vec::new(),
             stopped: false,
         };
-        let scope = run.scope().to_string();
         let limit = sizes.limit.as_millis().to_string();
-        let args = |role: &str, agent: u16| -> Vec<OsString> {
+        let process = |name: String, role: &str, agent: u16| {
             let run_dir = folder.as_os_str().to_owned();
             let mut args: Vec<OsString> =
-                ["rally", "--role", role, "--scope", &scope, "--limit-ms", &limit].map(OsString::from).into();
-            args.extend(["--agent".into(), agent.to_string().into(), "--run-dir".into(), run_dir]);
-            args
+                ["rally", "--role", role, "--limit-ms", &limit, "--run-dir"].map(OsString::from).into();
+            args.extend([run_dir, "--agent".into(), agent.to_string().into(), "--launched".into()]);
+            args.extend(meeting.arguments());
+            let (log, env) = (log_file(folder, &name), meeting.environment());
+            Spec { name, args, log, env, ties_itself: true, ..Spec::default() }
         };
-        team.spawn("simulator", args("simulator", 0), folder)?;
-        team.spawn("coordinator", args("coordinator", 0), folder)?;
-        for seat in run.scope().seats() {
-            let pid = team.spawn(&format!("robots-{}", seat.start), args("robots", seat.start), folder)?;
-            team.hosts.push((pid, seat.len() as u16));
+        team.spawn(process("simulator".into(), "simulator", 0))?;
+        team.spawn(process("coordinator".into(), "coordinator", 0))?;
+        let per_seat = sizes.per_seat();
+        for first in (0..sizes.agents).step_by(per_seat.into()) {
+            let pid = team.spawn(process(format!("robots-{first}"), "robots", first))?;
+            team.hosts.push((pid, per_seat.min(sizes.agents - first)));
         }
         Ok(team)
     }
 
-    fn spawn(&mut self, name: &str, args: Vec<OsString>, folder: &Path) -> Result<u32, Failure> {
+    fn spawn(&mut self, spec: Spec) -> Result<u32, Failure> {
         let Some(supervisor) = &self.supervisor else { return Err(Failure::fault("the team has ended")) };
-        let spec = Spec {
-            name: name.into(),
-            args,
-            log: log_file(folder, name),
-            ties_itself: true,
-            ..Spec::default()
-        };
         let pid = supervisor.spawn(spec).map_err(Failure::fault)?;
         self.pids.push(pid);
         Ok(pid)

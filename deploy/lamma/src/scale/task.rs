@@ -146,6 +146,7 @@ impl Rally {
             on_lost: None,
             step_ms: 0,
             events: Vec::new(),
+            travel: None,
         }
     }
 

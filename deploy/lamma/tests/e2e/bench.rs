@@ -68,3 +68,35 @@ fn events_are_planned_around() {
     assert_eq!(done.status.code(), Some(20));
     assert!(String::from_utf8_lossy(&done.stderr).contains("did you mean `robot1`"));
 }
+
+/// Going takes its time everywhere: in the plan, on the simulator's clock and in the metrics.
+#[test]
+fn travel_counts_the_way() {
+    let folder = Folder::new("travel");
+    let args = |more: &[&'static str]| {
+        let (code, result) =
+            json(&output(&folder, &run_args("Put the tomato in the fridge", "robot1", more)));
+        assert_eq!(code, 0, "{result:#}");
+        result
+    };
+    let (unit, travel) = (args(&[]), args(&["--travel"]));
+    let makespan = |result: &serde_json::Value| result["plan"]["makespan"].as_f64().unwrap();
+    let actions = travel["plan"]["actions"].as_array().unwrap();
+    let duration = |action: &serde_json::Value| action["duration"].as_f64().unwrap_or(1.0);
+    let ends = actions.iter().map(|a| a["start"].as_f64().unwrap() + duration(a)).fold(0.0, f64::max);
+    assert_eq!(makespan(&travel), ends, "the simulator's clock and the plan agree: {travel:#}");
+    assert!(makespan(&travel) > makespan(&unit) && duration(&actions[0]) > 1.0, "{travel:#}");
+    let bound = travel["plan"]["makespan_lower_bound"].as_f64().unwrap();
+    assert!(makespan(&unit) < bound && bound <= makespan(&travel), "{travel:#}");
+    assert_eq!(travel["metrics"]["eff"], 1.0);
+    let solved: serde_json::Value = {
+        let mut args = run_args("Put the tomato in the fridge", "robot1", &["--travel"]);
+        args[0] = "solve";
+        json(&output(&folder, &args)).1
+    };
+    assert_eq!(solved["plan"], travel["plan"]);
+    let pddl = ["run", "--pddl", "a.pddl", "b.pddl", "--travel"];
+    let done = output(&folder, &pddl);
+    assert_eq!(done.status.code(), Some(20));
+    assert!(String::from_utf8_lossy(&done.stderr).contains("--travel is for a scene"));
+}

@@ -5,6 +5,7 @@
 mod bad_input;
 mod bench;
 mod faults;
+mod methods;
 mod planner;
 mod runs;
 mod scale;

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::time::{Duration, Instant};
 
-use lamma_protocol::{AgentId, Envelope, Frame, Input, Machine, Node, Output, Revision, Tick, Topic};
+use lamma_protocol::{AgentId, Awaits, Envelope, Frame, Input, Machine, Node, Output, Revision, Tick, Topic};
 
 use super::{Recorder, Settings, Stop};
 
@@ -141,6 +141,14 @@ impl<'a, M: Machine> Crowd<'a, M> {
     /// How long there is nothing to do by itself; None: for ever.
     pub(super) fn idle_time(&self) -> Option<Duration> {
         self.timers.first().map(|(tick, _)| Duration::from_micros(tick.since_us(self.now())))
+    }
+
+    /// Which frames are worth waking up for.
+    pub(super) fn awaits(&self) -> Awaits {
+        match &self.seats[..] {
+            [one] => one.machine.awaits(),
+            _ => Awaits::AnyFrame,
+        }
     }
 
     pub(super) fn next_revision(&mut self, machine: usize) -> Revision {

@@ -10,7 +10,7 @@ mod stop;
 
 use std::time::Instant;
 
-use lamma_protocol::{Envelope, Input, Machine, Node, Output, Tick};
+use lamma_protocol::{Envelope, Input, Machine, Node, Output, Tick, Topic, codec};
 use thiserror::Error;
 
 use crate::{Bus, PublishError, Received, WaitError};
@@ -168,6 +168,7 @@ where
                 return Ok(End::Stopped);
             }
             if !self.feed_all()? {
+                self.bus.await_frames(self.crowd.awaits());
                 self.bus.wait(self.crowd.idle_time())?;
             }
         }
@@ -194,14 +195,17 @@ where
         Ok(self.crowd.handle_timeouts() || some)
     }
 
-    /// Does what the machines asked for.
+    /// Does what the machines asked for. The frame goes first: who is woken by it finds the rest when it looks.
     fn act(&mut self) -> Result<(), DriverError> {
+        if let Some((machine, words)) = self.crowd.newest_frame.take() {
+            tolerate(self.crowd.node(machine), self.bus.publish_frame(&words))?;
+        }
         while let Some((machine, output)) = self.crowd.pending.pop_front() {
             let node = self.crowd.node(machine);
             match output {
                 Output::Publish(topic, message) => {
                     let envelope = Envelope { revision: self.crowd.next_revision(machine), message };
-                    tolerate(node, self.bus.publish(topic, &envelope))?;
+                    tolerate(node, self.publish(topic, &envelope))?;
                 }
                 // Kept apart, in `newest_frame`.
                 Output::PublishFrame(_) => {}
@@ -211,10 +215,15 @@ where
                 Output::Finish => self.crowd.finish(machine),
             }
         }
-        if let Some((machine, words)) = self.crowd.newest_frame.take() {
-            tolerate(self.crowd.node(machine), self.bus.publish_frame(&words))?;
-        }
         Ok(())
+    }
+
+    fn publish(&mut self, topic: Topic, envelope: &Envelope) -> Result<(), PublishError> {
+        if !envelope.message.is_shown_by_a_frame() {
+            return self.bus.publish(topic, envelope);
+        }
+        let bytes = codec::encode(envelope).map_err(|source| PublishError::Encode { topic, source })?;
+        self.bus.publish_quietly(topic, &bytes)
     }
 }
 

@@ -12,7 +12,7 @@ use std::task::Waker;
 use std::time::{Duration, Instant};
 
 use lamma_protocol::codec::MAX_MESSAGE_BYTES;
-use lamma_protocol::{Node, Topic};
+use lamma_protocol::{Awaits, Node, Topic};
 
 pub use plan::{Partition, Plan, PlanError};
 
@@ -219,6 +219,10 @@ impl<B: Bus> Bus for FaultyBus<B> {
                 return Ok(false);
             }
         }
+    }
+
+    fn await_frames(&mut self, awaits: Awaits) {
+        self.inner.await_frames(awaits);
     }
 
     fn waker(&self) -> Waker {

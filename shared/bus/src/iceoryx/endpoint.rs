@@ -1,14 +1,13 @@
 //! The endpoint of one process.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::task::Waker;
 use std::time::Duration;
 
-use iceoryx2::port::notifier::Notifier;
-use iceoryx2::prelude::*;
-use lamma_protocol::{Node as Member, Topic};
+use lamma_protocol::{Awaits, Frame, Node as Member, Topic};
 
-use super::bell::{Bell, Woken};
+use super::bell::{Bell, Bells, Woken};
 use super::layout::{Layout, Line, Party};
 use super::reader::Reader;
 use super::services::{Handle, check_open_files};
@@ -25,8 +24,7 @@ pub struct Endpoint {
     layout: Layout,
     writers: BTreeMap<Line, Writer>,
     readers: Vec<Reader>,
-    /// The bells of the peers.
-    peers: BTreeMap<Party, Notifier<ipc::Service>>,
+    bells: Arc<Bells>,
     bell: Bell,
     inbox: Inbox,
     // Last, so that it goes last: ports tell the node of their end.
@@ -44,53 +42,38 @@ impl Endpoint {
             return Err(OpenError::Ended { tag: scope.tag().to_owned() });
         }
         let handle = Handle::new(scope, party)?;
-        let listener = handle.bell(party, false)?.listener_builder().create();
-        let bell = Bell::new(listener.map_err(|e| handle.error("the bell", e))?);
-        let bell = bell.map_err(|e| handle.error("the bell", e))?;
+        let bells = Arc::new(Bells::open(scope).map_err(|e| handle.error("the bells", e))?);
+        let bell = Bell::new(Arc::clone(&bells), party);
         let readers = layout.read_by(party).into_iter().map(|l| Reader::open(&handle, layout, l));
         let readers = readers.collect::<Result<_, _>>()?;
         let writers = layout.published_by(party).into_iter();
         let writers = writers.map(|l| Ok((l, Writer::open(&handle, layout, l)?)));
         let writers = writers.collect::<Result<_, OpenError>>()?;
-        let peers = layout.peers(party).into_iter().map(|peer| {
-            let port = handle.bell(peer, false)?.notifier_builder().create();
-            Ok((peer, port.map_err(|e| handle.error(format!("bell/{peer}"), e))?))
-        });
-        let peers = peers.collect::<Result<_, OpenError>>()?;
         let inbox = Inbox::default();
         let endpoint =
-            Endpoint { node, party, layout, writers, readers, peers, bell, inbox, _handle: handle };
-        endpoint.peers.keys().for_each(|peer| endpoint.tell_joined(*peer));
+            Endpoint { node, party, layout, writers, readers, bells, bell, inbox, _handle: handle };
+        layout.peers(party).into_iter().for_each(|peer| endpoint.tell_joined(peer));
         Ok(endpoint)
     }
 
     /// Tells `peer` that this endpoint wants to hear all that `peer` said last.
     fn tell_joined(&self, peer: Party) {
         if let Some(id) = self.layout.joined(peer, self.party) {
-            self.ring(peer, EventId::new(id));
+            self.bells.ring(peer, id);
         }
     }
 
-    /// Rings a bell. That nobody listens, or that it rings already, is no failure.
-    fn ring(&self, peer: Party, id: EventId) {
-        let Some(port) = self.peers.get(&peer) else { return };
-        if let Err(error) = port.notify_with_custom_event_id(id) {
-            tracing::warn!("a bell does not ring: {error}");
-        }
-    }
-
-    fn send(&mut self, topic: Topic, content: Content<'_>) -> Result<(), PublishError> {
+    fn send(&mut self, topic: Topic, content: Content<'_>, ring: Ring<'_>) -> Result<(), PublishError> {
         // The callers have checked that the topic is one of this endpoint's own.
         let Some(writer) = self.writers.get_mut(&self.layout.line(topic)) else {
             return Err(PublishError::NoSuchTopic { topic, agents: self.layout.agents });
         };
         self.inbox.stats.published += 1;
-        let rings = writer.send(topic, content)?;
-        for (peer, id) in rings {
-            if let Some(port) = self.peers.get(peer)
-                && let Err(error) = port.notify_with_custom_event_id(*id)
-            {
-                tracing::warn!("a bell does not ring: {error}");
+        for &(party, event) in writer.send(topic, content)? {
+            match ring {
+                Ring::Loudly => self.bells.ring(party, event),
+                Ring::Quietly => self.bells.ring_quietly(party, event),
+                Ring::For(frame) => self.bells.ring_for_frame(party, event, &frame),
             }
         }
         Ok(())
@@ -102,27 +85,16 @@ impl Endpoint {
         if self.layout.party(publisher) == Some(self.party) { publisher } else { self.node }
     }
 
-    fn heed(&mut self, events: Vec<usize>) {
-        let joined: Vec<Party> = events.into_iter().filter_map(|event| self.hear(event)).collect();
+    /// Takes the rings so far: news, and peers that have joined.
+    fn hear(&mut self) {
+        let (readers, party) = (&mut self.readers, self.party);
+        let mut joined = Vec::new();
+        self.bell.hear(|event| match readers.get_mut(event) {
+            Some(reader) => reader.news = true,
+            None => joined.extend(peer_of(party, event - readers.len())),
+        });
         if !joined.is_empty() {
             self.welcome(&joined);
-        }
-    }
-
-    /// Takes an event: news, or a peer that has joined.
-    fn hear(&mut self, event: usize) -> Option<Party> {
-        match event.checked_sub(self.readers.len()) {
-            None => {
-                self.readers[event].news = true;
-                None
-            }
-            Some(place) => match (place, self.party) {
-                (0, _) => Some(Party::Supervisor),
-                (1, _) => Some(Party::Coordinator),
-                (2, _) => Some(Party::Simulator),
-                (_, Party::Seat(_)) => None,
-                (seat, _) => u16::try_from(seat - 3).ok().map(Party::Seat),
-            },
         }
     }
 
@@ -144,10 +116,32 @@ impl Endpoint {
                 false
             });
             if said {
-                let news = |party| Some((party, EventId::new(self.layout.news(party, line)?)));
-                parties.into_iter().filter_map(news).for_each(|(party, id)| self.ring(party, id));
+                let news = |party| Some((party, self.layout.news(party, line)?));
+                parties.into_iter().filter_map(news).for_each(|(party, id)| self.bells.ring(party, id));
             }
         }
+    }
+}
+
+/// How the readers of a statement are told of it.
+#[derive(Clone, Copy)]
+enum Ring<'a> {
+    /// Now.
+    Loudly,
+    /// When they next wake.
+    Quietly,
+    /// Now, those for whom this frame is worth it.
+    For(Frame<'a>),
+}
+
+/// Who it is that has joined, by its place among the events of `party`'s bell after its news.
+fn peer_of(party: Party, place: usize) -> Option<Party> {
+    match (place, party) {
+        (0, _) => Some(Party::Supervisor),
+        (1, _) => Some(Party::Coordinator),
+        (2, _) => Some(Party::Simulator),
+        (_, Party::Seat(_)) => None,
+        (seat, _) => u16::try_from(seat - 3).ok().map(Party::Seat),
     }
 }
 
@@ -158,22 +152,24 @@ impl Bus for Endpoint {
 
     fn publish_bytes(&mut self, topic: Topic, bytes: &[u8]) -> Result<(), PublishError> {
         crate::check_bytes(self.speaker(topic), topic, self.layout.agents, bytes)?;
-        self.send(topic, Content::Bytes(bytes))
+        self.send(topic, Content::Bytes(bytes), Ring::Loudly)
+    }
+
+    fn publish_quietly(&mut self, topic: Topic, bytes: &[u8]) -> Result<(), PublishError> {
+        crate::check_bytes(self.speaker(topic), topic, self.layout.agents, bytes)?;
+        self.send(topic, Content::Bytes(bytes), Ring::Quietly)
     }
 
     fn publish_frame(&mut self, words: &[u64]) -> Result<(), PublishError> {
         crate::check_publisher(self.node, Topic::Frame, self.layout.agents)?;
-        self.send(Topic::Frame, Content::Words(words))
+        // What is no frame is the readers' affair, who refuse it.
+        let ring = Frame::new(words).map_or(Ring::Loudly, Ring::For);
+        self.send(Topic::Frame, Content::Words(words), ring)
     }
 
     fn receive(&mut self, sink: &mut dyn FnMut(Received<'_>)) -> usize {
-        if !self.readers.iter().any(|r| r.news) {
-            // For who looks without waiting, and to take wake-ups left over. A bell that cannot be heard is
-            // an error of the next wait.
-            let mut rung = Vec::new();
-            while self.bell.hear(|event| rung.push(event)).unwrap_or(false) {}
-            self.heed(rung);
-        }
+        // For who looks without waiting.
+        self.hear();
         let mut lost = Vec::new();
         let readers = self.readers.iter_mut().filter(|r| r.news);
         let count = readers.map(|r| r.receive(&mut self.inbox, sink, &mut lost)).sum();
@@ -184,15 +180,18 @@ impl Bus for Endpoint {
     }
 
     fn wait(&mut self, timeout: Option<Duration>) -> Result<bool, WaitError> {
-        let mut rung = Vec::new();
-        let woken = self.bell.wait(timeout, |event| rung.push(event))?;
-        self.heed(rung);
+        let woken = self.bell.wait(timeout)?;
+        self.hear();
         if woken == Woken::TimedOut {
             // A bell that was not rung (its owner may have died between sending and ringing) costs time,
             // not news.
             self.readers.iter_mut().for_each(|r| r.news = true);
         }
         Ok(woken == Woken::Rung)
+    }
+
+    fn await_frames(&mut self, awaits: Awaits) {
+        self.bell.await_frames(awaits);
     }
 
     fn waker(&self) -> Waker {

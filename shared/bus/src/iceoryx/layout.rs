@@ -147,6 +147,7 @@ impl Layout {
     }
 
     /// All parties, in a fixed order.
+    #[cfg(test)]
     pub(super) fn parties(self) -> impl Iterator<Item = Party> {
         let fixed = [Party::Supervisor, Party::Coordinator, Party::Simulator];
         fixed.into_iter().chain((0..self.seats()).map(Party::Seat))

@@ -4,9 +4,9 @@
 //!   the coordinator and to the simulator. Each publisher has its own buffer at each reader; with history
 //!   and safe overflow the newest statement replaces the one before it, nothing ever waits for a reader,
 //!   and a late joiner gets the newest.
-//! - One event service per endpoint, its *bell*. Who publishes rings its readers; the event id says which
-//!   service, so a node with thousands of topics looks only at what has changed. A node that joins rings
-//!   the peers it exchanges something with, and publishers then hand it what they last said.
+//! - One *bell* per endpoint ([`bell`]): a few words of shared memory and a futex. Who publishes rings its readers;
+//!   the event says which service, so a node with thousands of topics looks only at what has changed. A node that
+//!   joins rings the peers it exchanges something with, and publishers then hand it what they last said.
 //! - An endpoint may be the *seat* of many robots in one process. Its topics share buffers that can
 //!   overflow; the reader notices the gap in the numbers and rings like one that has just joined.
 //! - All limits follow from the size of the team. All names carry the run's tag ([`Scope`]), so runs never

@@ -65,6 +65,11 @@ impl Scope {
         &self.root
     }
 
+    /// The file of the page that wakes its parties.
+    pub(super) fn bells(&self) -> PathBuf {
+        self.root.join("bells")
+    }
+
     /// With what the name of every file of the run begins.
     pub(super) fn prefix(tag: &str) -> String {
         format!("lamma-{tag}_")

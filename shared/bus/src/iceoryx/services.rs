@@ -3,16 +3,16 @@
 use std::sync::{Mutex, PoisonError};
 
 use iceoryx2::prelude::*;
-use iceoryx2::service::port_factory::{event, publish_subscribe};
+use iceoryx2::service::port_factory::publish_subscribe;
 use lamma_protocol::Node as Member;
 
+use super::bell::Bells;
 use super::layout::{Layout, Line, Party};
 use super::sweep::{Claim, SweepError, remove_half_made};
 use super::writer::Head;
 use super::{Endpoint, OpenError, Scope, sweep};
 
 pub(super) type LineService<T> = publish_subscribe::PortFactory<ipc::Service, [T], Head>;
-pub(super) type BellService = event::PortFactory<ipc::Service>;
 
 /// Ports that the dead may hold on to until [`Run::bury_the_dead`], per service.
 const SPARE: usize = 6;
@@ -31,7 +31,7 @@ pub(super) struct Handle {
 
 impl Handle {
     pub(super) fn new(scope: &Scope, party: Party) -> Result<Handle, OpenError> {
-        // iceoryx2 warns at every ring of a bell whose owner is stopped; that is our daily business.
+        // What concerns our users is said by us.
         set_log_level(LogLevel::Error);
         let fail = |reason: String| error(scope, "the node".into(), reason);
         let config = scope.config(party).map_err(fail)?;
@@ -73,24 +73,6 @@ impl Handle {
             .max_subscribers(readers + spare(readers))
             .max_nodes(readers + publishers + 1 + 2 * spare(readers + publishers));
         builder.create().map_err(|e| self.error(line, e))
-    }
-
-    /// The service that wakes `party`.
-    pub(super) fn bell(&self, party: Party, create: bool) -> Result<BellService, OpenError> {
-        let what = format!("bell/{party}");
-        let builder = self.node.service_builder(&self.name(&what)?).event();
-        if !create {
-            return builder.open().map_err(|e| self.error(what, e));
-        }
-        let layout = self.scope.layout();
-        let peers = layout.peers(party).len();
-        let builder = builder
-            .max_listeners(1 + SPARE)
-            .max_notifiers(peers + spare(peers))
-            .max_nodes(peers + 2 + 2 * spare(peers))
-            .event_id_max_value(layout.events(party) - 1)
-            .disable_deadline();
-        builder.create().map_err(|e| self.error(what, e))
     }
 }
 
@@ -135,7 +117,6 @@ struct Services {
     handle: Handle,
     _words: LineService<u64>,
     _bytes: Vec<LineService<u8>>,
-    _bells: Vec<BellService>,
 }
 
 impl Run {
@@ -202,8 +183,8 @@ impl Services {
         let bytes = layout.lines().filter(|l| *l != Line::Frame).map(|l| handle.line(l, true));
         let bytes = bytes.collect::<Result<_, _>>()?;
         let words = handle.line(Line::Frame, true)?;
-        let bells = layout.parties().map(|p| handle.bell(p, true)).collect::<Result<_, _>>()?;
-        Ok(Services { handle, _words: words, _bytes: bytes, _bells: bells })
+        Bells::create(scope).map_err(|e| handle.error("the bells", e))?;
+        Ok(Services { handle, _words: words, _bytes: bytes })
     }
 }
 

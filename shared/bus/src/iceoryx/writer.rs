@@ -76,7 +76,7 @@ impl Head {
 pub(super) struct Writer {
     port: WriterPort,
     /// Whose bells to ring, and how.
-    readers: Vec<(Party, EventId)>,
+    readers: Vec<(Party, usize)>,
     /// Statements so far.
     sent: u64,
     /// What was said last on each topic, where the transport's own history of one statement is too short.
@@ -105,7 +105,7 @@ impl Writer {
             Line::Outcome => WriterPort::Bytes(port(handle, line, ROOM_FOR_LAST_WORDS)?),
             _ => WriterPort::Bytes(port(handle, line, if many { ROOM_OF_MANY } else { ROOM })?),
         };
-        let ring = |reader: Party| Some((reader, EventId::new(layout.news(reader, line)?)));
+        let ring = |reader: Party| Some((reader, layout.news(reader, line)?));
         let readers = layout.readers(line).into_iter().filter_map(ring).collect();
         Ok(Writer { port, readers, sent: 0, kept: many.then(BTreeMap::new) })
     }
@@ -115,7 +115,7 @@ impl Writer {
         &mut self,
         topic: Topic,
         content: Content<'_>,
-    ) -> Result<&[(Party, EventId)], PublishError> {
+    ) -> Result<&[(Party, usize)], PublishError> {
         self.put(topic, content)?;
         if let (Some(kept), Content::Bytes(bytes)) = (&mut self.kept, content) {
             let last = kept.entry(topic).or_default();

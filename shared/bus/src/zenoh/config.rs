@@ -94,13 +94,19 @@ pub struct Join {
 /// The largest message that is put together from its parts: ours with some room for Zenoh's own head.
 const LARGEST: usize = codec::MAX_MESSAGE_BYTES + (64 << 10);
 
-/// How long a message may wait for room on the way, in microseconds, before it is dropped; and in all for the
-/// parts of a large one, which it needs on a slow link.
-const WAIT_BEFORE_DROP: u64 = 1_000;
+/// How long a message may wait for room on the way, in microseconds, before it is dropped (a sender may wait no
+/// longer than a millisecond in all); and in all for the parts of a large one, which it needs on a slow link.
+const WAIT_BEFORE_DROP: u64 = 100;
 const WAIT_BEFORE_DROP_LARGE: u64 = 500_000;
 
 /// Batches of 64 KiB that wait in the queue of a link: memory is taken only when they are needed.
 const QUEUE: usize = 16;
+
+/// Whether what is said to or by a team of this size goes out at once instead of being batched with what follows. It
+/// is a batch of its own then, so all that a team says at once must fit into the queue of one link.
+pub(super) fn at_once(agents: u16) -> bool {
+    2 * usize::from(agents) <= QUEUE
+}
 
 /// Sessions that a router takes, and such as may be about to.
 const SESSIONS: usize = 16_384;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::task::Waker;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use lamma_protocol::{Node, Topic, codec};
+use lamma_protocol::{Awaits, Node, Topic, codec};
 use zenoh::bytes::ZBytes;
 use zenoh::key_expr::KeyExpr;
 use zenoh::liveliness::LivelinessToken;
@@ -15,7 +15,7 @@ use zenoh::sample::{Sample, SampleKind};
 use zenoh::{Session, Wait};
 
 use super::keys::{Keys, Stamp};
-use super::mailbox::{Content, Mail, Mailbox};
+use super::mailbox::{Content, Mail, Mailbox, words};
 use super::{Join, OpenError, config};
 use crate::{Bus, Inbox, PublishError, Received, Stats, WaitError};
 
@@ -34,6 +34,7 @@ pub struct Endpoint {
     keys: Keys,
     session: Session,
     opened: u64,
+    at_once: bool,
     said: BTreeMap<Topic, Said>,
     mailbox: Arc<Mailbox>,
     inbox: Inbox,
@@ -80,7 +81,10 @@ impl Endpoint {
         let token = session.liveliness().declare_token(live.clone()).wait();
         let token = token.map_err(|e| refused(node, live, &e))?;
         if !sync(&session, &keys, node, PATIENCE) {
-            return Err(fail("the router does not answer".into()));
+            return Err(match &join.identity {
+                Some(identity) => OpenError::NotItself { node, name: identity.name.clone() },
+                None => fail("the router does not answer".into()),
+            });
         }
         Ok(Endpoint {
             node,
@@ -88,6 +92,7 @@ impl Endpoint {
             keys,
             session,
             opened,
+            at_once: config::at_once(agents),
             said: BTreeMap::new(),
             mailbox,
             inbox: Inbox::default(),
@@ -119,7 +124,7 @@ impl Endpoint {
                 Said { key, payload: payload.into(), number, again, pause }
             }
         };
-        let sent = said.send(&self.session, self.opened);
+        let sent = said.send(&self.session, self.opened, self.at_once);
         self.said.insert(topic, said);
         self.inbox.stats.published = number;
         sent.map_err(fail)
@@ -134,7 +139,7 @@ impl Endpoint {
             if !welcome && said.again > now {
                 continue;
             }
-            if let Err(error) = said.send(&self.session, self.opened) {
+            if let Err(error) = said.send(&self.session, self.opened, self.at_once) {
                 tracing::debug!(%topic, "not said again: {error}");
             }
             said.pause = if welcome { FIRST_REPEAT } else { (said.pause * 2).min(LAST_REPEAT) };
@@ -145,10 +150,10 @@ impl Endpoint {
 }
 
 impl Said {
-    fn send(&self, session: &Session, opened: u64) -> zenoh::Result<()> {
+    fn send(&self, session: &Session, opened: u64, at_once: bool) -> zenoh::Result<()> {
         let stamp = Stamp { session: opened, number: self.number };
         let put = session.put(&self.key, self.payload.clone()).attachment(&stamp.to_bytes()[..]);
-        put.congestion_control(CongestionControl::Drop).express(false).wait()
+        put.congestion_control(CongestionControl::Drop).express(at_once).wait()
     }
 }
 
@@ -189,18 +194,20 @@ fn meet(own: Node, keys: Keys, mailbox: Arc<Mailbox>) -> impl Fn(Sample) + Send 
     }
 }
 
-/// Waits until the router has seen all that this session sent before. False if it does not say so in time.
+/// Waits until the router has seen all that this session sent before. False if it does not say so in time: it is
+/// gone, or its rules do not let this session ask as `node`.
 fn sync(session: &Session, keys: &Keys, node: Node, patience: Duration) -> bool {
-    let (tell, told) = std::sync::mpsc::channel::<()>();
-    // The query ends when its callback, which holds the sender, is dropped: answered by nobody, that is at once.
+    let (tell, told) = std::sync::mpsc::channel::<bool>();
+    // The query ends when its callback, which holds the sender, is dropped: answered by nobody, that is at once. When
+    // its time is over it is answered by an error.
     let ask = session.get(keys.sync(node)).timeout(patience);
-    let asked = ask.congestion_control(CongestionControl::Block).callback(move |_| {
-        let _ = tell.send(());
+    let asked = ask.congestion_control(CongestionControl::Block).callback(move |reply| {
+        let _ = tell.send(reply.result().is_ok());
     });
     asked.wait().is_ok()
         && matches!(
             told.recv_timeout(patience),
-            Ok(()) | Err(std::sync::mpsc::RecvTimeoutError::Disconnected)
+            Ok(true) | Err(std::sync::mpsc::RecvTimeoutError::Disconnected)
         )
 }
 
@@ -266,6 +273,10 @@ impl Bus for Endpoint {
         }
     }
 
+    fn await_frames(&mut self, awaits: Awaits) {
+        self.mailbox.await_frames(awaits);
+    }
+
     fn waker(&self) -> Waker {
         Waker::from(Arc::clone(&self.mailbox))
     }
@@ -288,11 +299,6 @@ fn rank(topic: Topic) -> (u32, u8) {
         Topic::Request(a) => (1 + u32::from(a.0), 2),
         Topic::Ack(a) => (1 + u32::from(a.0), 3),
     }
-}
-
-fn words(bytes: &[u8]) -> Option<Vec<u64>> {
-    let (words, rest) = bytes.as_chunks::<8>();
-    rest.is_empty().then(|| words.iter().map(|w| u64::from_le_bytes(*w)).collect())
 }
 
 impl Drop for Endpoint {

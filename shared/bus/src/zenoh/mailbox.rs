@@ -6,7 +6,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::task::Wake;
 use std::time::{Duration, Instant};
 
-use lamma_protocol::{Node, Topic, codec};
+use lamma_protocol::{Awaits, Frame, Node, Topic, codec};
 
 use super::keys::Stamp;
 
@@ -20,6 +20,8 @@ pub(super) struct Mailbox {
 #[derive(Debug)]
 struct Contents {
     rung: bool,
+    /// Which frames ring.
+    awaits: Awaits,
     slots: BTreeMap<Topic, Slot>,
     news: BTreeSet<Topic>,
     /// The sessions of each node that are there. More than one while a node starts again.
@@ -68,6 +70,7 @@ impl Mailbox {
         let slots = topics.into_iter().map(|t| (t, Slot::default())).collect();
         let contents = Contents {
             rung: false,
+            awaits: Awaits::AnyFrame,
             slots,
             news: BTreeSet::new(),
             present: BTreeMap::new(),
@@ -92,6 +95,7 @@ impl Mailbox {
         copy: impl FnOnce(&mut Vec<u8>),
     ) {
         let mut contents = self.lock();
+        let awaits = contents.awaits;
         let Some(slot) = contents.slots.get_mut(&topic) else { return };
         if stamp.is_some() && stamp <= slot.newest {
             return;
@@ -112,8 +116,23 @@ impl Mailbox {
             }
         };
         slot.newest = stamp.or(slot.newest);
+        let rings = match &slot.content {
+            Content::Bytes(bytes) if topic == Topic::Frame => is_awaited(bytes, awaits),
+            _ => true,
+        };
         contents.news.insert(topic);
-        self.ring(contents);
+        if rings {
+            self.ring(contents);
+        }
+    }
+
+    /// Which frames ring from now on. Whether one has come that is awaited now and was not before, the owner learns by
+    /// looking: the next wait ends at once if there is any.
+    pub(super) fn await_frames(&self, awaits: Awaits) {
+        let mut contents = self.lock();
+        contents.awaits = awaits;
+        let here = contents.news.contains(&Topic::Frame);
+        contents.rung |= here;
     }
 
     /// A session of a node is there and hears.
@@ -189,6 +208,21 @@ impl Mailbox {
     }
 }
 
+fn is_awaited(frame: &[u8], awaits: Awaits) -> bool {
+    match awaits {
+        Awaits::AnyFrame => true,
+        Awaits::NoFrame => false,
+        // What is no frame is looked at, and refused, by the owner.
+        Awaits::Opening(gate) => words(frame).is_none_or(|w| Frame::new(&w).is_ok_and(|f| f.open(gate))),
+    }
+}
+
+/// The words of a frame, from the bytes that they travel as.
+pub(super) fn words(bytes: &[u8]) -> Option<Vec<u64>> {
+    let (words, rest) = bytes.as_chunks::<8>();
+    rest.is_empty().then(|| words.iter().map(|w| u64::from_le_bytes(*w)).collect())
+}
+
 impl Wake for Mailbox {
     fn wake(self: Arc<Self>) {
         self.wake_by_ref();
@@ -201,6 +235,10 @@ impl Wake for Mailbox {
 
 #[cfg(test)]
 mod tests {
+    use lamma_protocol::frame::write_frame;
+    use lamma_protocol::message::Gate;
+    use lamma_protocol::{AgentId, FrameHeader, StepIndex};
+
     use super::*;
 
     fn deliver(mailbox: &Mailbox, session: u64, number: u64) {
@@ -238,6 +276,32 @@ mod tests {
         assert_eq!(mailbox.take_joined(), [node].into());
         mailbox.left(node, 2);
         assert_eq!(mailbox.take().left, [node].into());
+    }
+
+    #[test]
+    fn only_an_awaited_frame_rings_and_none_is_missed() {
+        let mailbox = Mailbox::new([Topic::Frame]);
+        let frame = |number: u64, done: u32| {
+            let progress = vec![StepIndex(done)];
+            let words =
+                write_frame(&FrameHeader { version: number, progress, ..FrameHeader::default() }, &[]);
+            let bytes: Vec<u8> = words.iter().flat_map(|w| w.to_le_bytes()).collect();
+            mailbox.deliver(Topic::Frame, Some(Stamp { session: 1, number }), bytes.len(), |to| {
+                to.extend(&bytes)
+            });
+        };
+        let rings = || mailbox.wait(Some(Instant::now()));
+        mailbox.await_frames(Awaits::Opening(Gate { agent: AgentId(0), done: StepIndex(2) }));
+        frame(1, 1);
+        assert!(!rings(), "the gate is closed");
+        frame(2, 2);
+        assert!(rings(), "the gate is open");
+        mailbox.take();
+        mailbox.await_frames(Awaits::NoFrame);
+        frame(3, 3);
+        assert!(!rings(), "none is awaited");
+        mailbox.await_frames(Awaits::AnyFrame);
+        assert!(rings(), "one has come before it was awaited");
     }
 
     #[test]

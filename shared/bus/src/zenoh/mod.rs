@@ -59,6 +59,17 @@ pub enum OpenError {
         /// What Zenoh said.
         reason: String,
     },
+    /// The router's rules do not take the session for this node's.
+    #[error(
+        "the router refuses this session as {node}: its certificate is that of {name}, or there is no answer; give \
+         {node} a certificate of its own"
+    )]
+    NotItself {
+        /// Who it says it is.
+        node: Node,
+        /// Whose certificate it has.
+        name: String,
+    },
     /// No router can be had there.
     #[error("no router at {at} ({reason}): is the address taken, or a file of the identity missing?")]
     Listen {

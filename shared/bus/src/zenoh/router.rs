@@ -5,7 +5,7 @@ use std::path::Path;
 use zenoh::{Session, Wait};
 
 use super::{Identity, OpenError, config};
-use crate::iceoryx::{Claim, sweep};
+use crate::iceoryx::{Claim, Scope, sweep};
 
 /// A router. It relays for as long as it lives.
 pub struct Router {
@@ -47,6 +47,11 @@ impl Router {
             true => self.endpoints.clone(),
             false => locators.iter().map(ToString::to_string).collect(),
         }
+    }
+
+    /// Under what the files of [`Router::local`] are found.
+    pub fn scope(&self) -> Option<&Scope> {
+        self.claim.as_ref().map(|claim| &claim.scope)
     }
 
     /// Its own session, for what runs beside it.

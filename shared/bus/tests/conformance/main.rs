@@ -2,6 +2,7 @@
 
 mod bad_network;
 mod suite;
+mod wakes;
 
 use lamma_bus::faulty::{FaultyBus, Plan};
 use lamma_bus::iceoryx::{Endpoint, Run, Scope, sweep};
@@ -112,11 +113,13 @@ macro_rules! conformance {
             only_the_publisher_publishes foreign_bytes_are_dropped_and_counted
             another_version_is_refused_by_name a_message_too_large_is_refused_at_the_sender
             foreign_words_are_no_frame a_large_message_and_a_large_frame_arrive
-            a_reader_that_never_reads_blocks_nobody a_publication_ends_a_wait_in_another_thread
-            a_waker_ends_a_wait a_waker_used_before_the_wait_is_not_lost a_wait_ends_with_its_time
+            a_reader_that_never_reads_blocks_nobody;
+            a_publication_ends_a_wait_in_another_thread an_awaited_frame_ends_a_wait_in_another_thread
+            what_is_not_awaited_comes_with_what_is a_waker_ends_a_wait
+            a_waker_used_before_the_wait_is_not_lost a_wait_ends_with_its_time
         );
     };
-    ($name:ident, $fixture:ty, $($test:ident)*) => {
+    ($name:ident, $fixture:ty, $($test:ident)*; $($wake:ident)*) => {
         mod $name {
             #[test]
             fn levels_converge_through_a_bad_network() {
@@ -129,6 +132,10 @@ macro_rules! conformance {
             $(#[test]
             fn $test() {
                 super::suite::$test::<$fixture>();
+            })*
+            $(#[test]
+            fn $wake() {
+                super::wakes::$wake::<$fixture>();
             })*
         }
     };

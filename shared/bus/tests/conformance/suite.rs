@@ -15,16 +15,16 @@ use lamma_protocol::{
 
 use super::Fixture;
 
-const R0: AgentId = AgentId(0);
-const R1: AgentId = AgentId(1);
-const PATIENCE: Duration = Duration::from_secs(20);
+pub(super) const R0: AgentId = AgentId(0);
+pub(super) const R1: AgentId = AgentId(1);
+pub(super) const PATIENCE: Duration = Duration::from_secs(20);
 
 fn envelope(number: u64, message: Message) -> Envelope {
     Envelope { revision: Revision { incarnation: 0, number }, message }
 }
 
 /// A message that fits `topic`, told apart by its revision.
-fn sample(topic: Topic, number: u64) -> Envelope {
+pub(super) fn sample(topic: Topic, number: u64) -> Envelope {
     let epoch = Epoch(number);
     let step = StepIndex(0);
     envelope(
@@ -61,21 +61,21 @@ fn sample(topic: Topic, number: u64) -> Envelope {
 }
 
 /// A frame of this version with so many facts.
-fn words(version: u64, facts: u32) -> Vec<u64> {
+pub(super) fn words(version: u64, facts: u32) -> Vec<u64> {
     let header = FrameHeader { version, facts, progress: vec![StepIndex(0); 2], ..FrameHeader::default() };
     frame::write_frame(&header, &vec![version; facts.div_ceil(64) as usize])
 }
 
 /// What was received, as plain data.
 #[derive(Clone, Debug, PartialEq)]
-enum Got {
+pub(super) enum Got {
     Message(Topic, Envelope),
     Frame(Vec<u64>),
     Hint(AgentId),
 }
 
 impl Got {
-    fn topic(&self) -> Option<Topic> {
+    pub(super) fn topic(&self) -> Option<Topic> {
         match self {
             Got::Message(topic, _) => Some(*topic),
             Got::Frame(_) => Some(Topic::Frame),
@@ -83,7 +83,7 @@ impl Got {
         }
     }
 
-    fn number(&self) -> u64 {
+    pub(super) fn number(&self) -> u64 {
         match self {
             Got::Message(_, envelope) => envelope.revision.number,
             Got::Frame(words) => words[2],
@@ -92,7 +92,7 @@ impl Got {
     }
 }
 
-fn receive<B: Bus>(bus: &mut B) -> Vec<Got> {
+pub(super) fn receive<B: Bus>(bus: &mut B) -> Vec<Got> {
     let mut got = Vec::new();
     let count = bus.receive(&mut |received| {
         got.push(match received {
@@ -106,7 +106,7 @@ fn receive<B: Bus>(bus: &mut B) -> Vec<Got> {
 }
 
 /// Lets `reader` wait and read until it has statement `number` of `topic`, while `others` live on.
-fn until<B: Bus>(reader: &mut B, topic: Topic, number: u64, others: &mut [&mut B]) -> Vec<Got> {
+pub(super) fn until<B: Bus>(reader: &mut B, topic: Topic, number: u64, others: &mut [&mut B]) -> Vec<Got> {
     let mut all = Vec::new();
     let end = Instant::now() + PATIENCE;
     loop {
@@ -124,7 +124,7 @@ fn until<B: Bus>(reader: &mut B, topic: Topic, number: u64, others: &mut [&mut B
 }
 
 /// Lets all live for a moment, so that they know of each other.
-fn settle<B: Bus>(all: &mut [&mut B]) {
+pub(super) fn settle<B: Bus>(all: &mut [&mut B]) {
     for _ in 0..5 {
         for bus in &mut *all {
             bus.wait(Some(Duration::from_millis(2))).unwrap();
@@ -390,62 +390,4 @@ pub fn a_reader_that_never_reads_blocks_nobody<F: Fixture>() {
     }
     until(&mut robot, Topic::Frame, 2_000, &mut [&mut simulator]);
     drop(deaf);
-}
-
-pub fn a_publication_ends_a_wait_in_another_thread<F: Fixture>() {
-    let bus = F::new(1);
-    std::thread::scope(|scope| {
-        let (ready, is_ready) = std::sync::mpsc::channel();
-        let reader = scope.spawn({
-            let bus = &bus;
-            move || {
-                let mut robot = bus.open(Node::Robot(R0));
-                ready.send(()).unwrap();
-                for number in 1..=100 {
-                    // No timeout: a bell that is not heard makes this test hang, and fail by that.
-                    while !receive(&mut robot).iter().any(|g| g.number() == number) {
-                        robot.wait(None).unwrap();
-                    }
-                    let topic = Topic::Request(R0);
-                    robot.publish(topic, &sample(topic, number)).unwrap();
-                }
-            }
-        });
-        let mut simulator = bus.open(Node::Simulator);
-        is_ready.recv().unwrap();
-        for number in 1..=100 {
-            simulator.publish_frame(&words(number, 10)).unwrap();
-            while !receive(&mut simulator).iter().any(|g| g.number() == number) {
-                simulator.wait(None).unwrap();
-            }
-        }
-        reader.join().unwrap();
-    });
-}
-
-pub fn a_waker_ends_a_wait<F: Fixture>() {
-    let bus = F::new(1);
-    let mut robot = bus.open(Node::Robot(R0));
-    let waker = robot.waker();
-    std::thread::scope(|scope| {
-        let thread = scope.spawn(move || {
-            std::thread::sleep(Duration::from_millis(20));
-            waker.wake();
-        });
-        while !robot.wait(None).unwrap() {}
-        thread.join().unwrap();
-    });
-}
-
-pub fn a_waker_used_before_the_wait_is_not_lost<F: Fixture>() {
-    let bus = F::new(1);
-    let mut robot = bus.open(Node::Robot(R0));
-    robot.waker().wake();
-    assert!(robot.wait(Some(PATIENCE)).unwrap());
-}
-
-pub fn a_wait_ends_with_its_time<F: Fixture>() {
-    let bus = F::new(1);
-    let mut robot = bus.open(Node::Robot(R0));
-    while robot.wait(Some(Duration::from_millis(5))).unwrap() {}
 }

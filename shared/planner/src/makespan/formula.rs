@@ -13,8 +13,9 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::layers::Layer;
-use super::model::{Lit, Maker, Model};
+use super::model::{Lit, Maker, Model, Threat};
 use super::sat::{Bool, Clauses, Fuel};
+use super::together::Together;
 
 /// The formula, and where to read the schedule.
 pub(super) struct Formula {
@@ -31,7 +32,13 @@ struct Variables {
 }
 
 /// The formula for schedules with these layers that lead to `goal`; `None` if it gets too large or takes too long.
-pub(super) fn formula(model: &Model, layers: &[Layer], goal: &[Lit], fuel: &Fuel<'_>) -> Option<Formula> {
+pub(super) fn formula(
+    model: &Model,
+    together: &Together,
+    layers: &[Layer],
+    goal: &[Lit],
+    fuel: &Fuel<'_>,
+) -> Option<Formula> {
     let mut clauses = Clauses::new();
     let variables: Vec<Variables> = layers
         .iter()
@@ -51,9 +58,11 @@ pub(super) fn formula(model: &Model, layers: &[Layer], goal: &[Lit], fuel: &Fuel
         let mut builder = Step {
             clauses: &mut clauses,
             model,
+            together,
             layer: &layers[step],
             own: &variables[step],
             threateners: BTreeMap::new(),
+            one_of: BTreeMap::new(),
             threatening: BTreeMap::new(),
             relying: BTreeMap::new(),
         };
@@ -119,6 +128,9 @@ struct Step<'a> {
     own: &'a Variables,
     /// Whose operators of this step might undo a literal.
     threateners: BTreeMap<Lit, Rc<[u32]>>,
+    together: &'a Together,
+    /// For a set of operators: one of it is done.
+    one_of: BTreeMap<usize, Bool>,
     /// For a literal before the step and an agent: the agent does something that might undo it.
     threatening: BTreeMap<(Lit, u32), Bool>,
     /// For a literal before the step and an agent: the agent's action relies on it.
@@ -253,9 +265,19 @@ impl Step<'_> {
             }
             return;
         }
+        let mut kept_from: Vec<u32> = Vec::new();
         for threat in model.threats[lit.index()].iter() {
             let Some(operator) = self.operator(threat.operator) else { continue };
             let agent = model.agent_of[threat.operator as usize];
+            if threat.harmless_if.is_empty()
+                && let Some(set) = self.together.of(lit, agent)
+            {
+                if !kept_from.contains(&agent) {
+                    kept_from.push(agent);
+                    self.keep_from(lit, variable, agent, set);
+                }
+                continue;
+            }
             let mut clause = vec![!variable, !operator];
             let events = model.events_of[threat.operator as usize].clone();
             let makers = &model.makers[lit.index()];
@@ -264,5 +286,41 @@ impl Step<'_> {
             clause.extend(threat.harmless_if.iter().filter_map(|&l| self.relies(l, agent)));
             self.clauses.clause(clause);
         }
+    }
+
+    /// If the agent does one of the set, the literal holds afterwards only if that makes it so.
+    fn keep_from(&mut self, lit: Lit, variable: Bool, agent: u32, set: usize) {
+        let model = self.model;
+        let mut clause = vec![!variable, !self.one_of(set)];
+        for maker in &model.makers[lit.index()] {
+            let operator = model.operator_of(*maker);
+            if model.agent_of[operator as usize] != agent
+                || self.together.sets[set].binary_search(&operator).is_err()
+            {
+                continue;
+            }
+            let undoes = |t: &Threat| t.operator == operator && t.harmless_if.is_empty();
+            clause.extend(match *maker {
+                Maker::Operator(_) if model.threats[lit.index()].iter().any(undoes) => None,
+                Maker::Operator(operator) => self.operator(operator),
+                Maker::Event(event) => self.event(event),
+            });
+        }
+        self.clauses.clause(clause);
+    }
+
+    /// That one of the set is done.
+    fn one_of(&mut self, set: usize) -> Bool {
+        if let Some(&known) = self.one_of.get(&set) {
+            return known;
+        }
+        let one = self.clauses.variable();
+        self.one_of.insert(set, one);
+        for &operator in &self.together.sets[set] {
+            if let Some(operator) = self.operator(operator) {
+                self.clauses.clause([!operator, one]);
+            }
+        }
+        one
     }
 }

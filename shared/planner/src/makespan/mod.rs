@@ -9,10 +9,12 @@
 mod formula;
 mod improve;
 mod layers;
+mod milestones;
 mod model;
 mod order;
 mod relevance;
 mod sat;
+mod together;
 mod windows;
 mod work;
 
@@ -22,10 +24,12 @@ use std::time::Duration;
 use crate::search::eliminate;
 use crate::task::{OperatorId, Task};
 use layers::{NEVER, Reach, Waiting};
+pub use milestones::{Milestone, Need};
 use model::{Lit, Model};
 use order::Order;
 use relevance::Relevance;
 use sat::{Found, Fuel, is_true};
+use together::Together;
 use windows::leads_to;
 use work::Work;
 
@@ -89,6 +93,9 @@ pub struct Scheduler<'a> {
     reach: Reach,
     /// Operators that a shortest schedule may need.
     relevant: Vec<bool>,
+    together: Together,
+    /// Parts of the goal come one after the other.
+    ordered: bool,
 }
 
 /// Operators, step by step.
@@ -105,17 +112,28 @@ impl<'a> Scheduler<'a> {
     /// Prepares the schedules of a task; `agent_of` says whose each operator is, by numbers from 0. `None` if
     /// its goal cannot be reached even without deletes.
     pub fn new(task: &'a Task, agent_of: &[u32]) -> Option<Self> {
+        Self::in_order(task, agent_of, &[])
+    }
+
+    /// The same for schedules that reach parts of the goal one after the other.
+    pub fn in_order(task: &'a Task, agent_of: &[u32], milestones: &[Milestone]) -> Option<Self> {
         if !task.impossible.is_empty() || agent_of.len() != task.operators.len() {
             return None;
         }
-        let model = Model::new(task, agent_of);
+        let mut model = Model::new(task, agent_of);
+        let ordered = milestones.iter().any(|milestone| !milestone.after.is_empty());
+        if ordered {
+            model.put_in_order(task, milestones);
+        }
         let waiting = Waiting::new(&model);
         let reach = Reach::new(&model, &waiting, |lit| model.initially[lit.index()], u32::MAX);
         if reach.goal(&model.goal) == NEVER {
             return None;
         }
         let relevant = Relevance::new(&model).operators;
-        Some(Scheduler { task, model, waiting, reach, relevant })
+        // Without conditional effects, what an agent may do to a literal is one variable anyway.
+        let together = if model.events.is_empty() { Together::default() } else { Together::new(&model) };
+        Some(Scheduler { task, model, waiting, reach, relevant, together, ordered })
     }
 
     /// The depth of the joint relaxed planning graph: no schedule is shorter.
@@ -199,7 +217,7 @@ impl<'a> Scheduler<'a> {
         if operators as u64 * LITERALS_PER_OPERATOR > fuel.size {
             return (Found::Stopped, Steps::new());
         }
-        let Some(formula) = formula::formula(&self.model, &layers, goal, fuel) else {
+        let Some(formula) = formula::formula(&self.model, &self.together, &layers, goal, fuel) else {
             return (Found::Stopped, Steps::new());
         };
         let (found, model) = formula.clauses.solve(fuel);
@@ -218,7 +236,8 @@ impl<'a> Scheduler<'a> {
 
     /// Whether operators do the same wherever they apply.
     fn is_plain(&self) -> bool {
-        self.model.events.is_empty() && self.model.derivations.is_empty() && !self.task.has_numbers()
+        let unconditional = self.model.events.is_empty() && self.model.derivations.is_empty();
+        unconditional && !self.ordered && !self.task.has_numbers()
     }
 
     /// The schedule without its idle actions, if it leads to the goal: what the formula does not know about

@@ -120,7 +120,7 @@ impl Model {
 
     /// The number of literals there might be.
     pub fn literals_count(&self) -> usize {
-        2 * self.facts
+        self.makers.len()
     }
 
     /// Whether axioms define the literal.
@@ -156,7 +156,7 @@ impl Model {
     }
 
     /// That the literal does not hold.
-    fn negation(&self, task: &Task, lit: Lit) -> Lit {
+    pub fn negation(&self, task: &Task, lit: Lit) -> Lit {
         let variable = &task.variables[task.facts[lit.index()].variable as usize];
         match variable.size {
             2 => Lit(2 * variable.first.0 + 1 - lit.0),

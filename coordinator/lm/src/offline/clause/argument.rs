@@ -5,7 +5,7 @@ use super::super::lexicon::{Act, Verb};
 use super::super::syntax::{
     Clause, Head, Phrase, Place, Relation, is_determiner, is_function_word, preposition,
 };
-use super::Parser;
+use super::{Parser, is_going};
 
 impl<'a> Parser<'a> {
     /// "turn the lamp on", "put it away", "put it back".
@@ -23,7 +23,11 @@ impl<'a> Parser<'a> {
             return true;
         }
         let next = self.word_at(1);
-        if preposition(&self.rest()).is_some_and(|(_, length)| length > 1) {
+        // "turn the lamp on to see": no "onto".
+        let purpose = next == Some("to")
+            && self.ahead(2).verbs_here().is_some()
+            && self.ahead(2).longest_noun().is_none();
+        if !purpose && preposition(&self.rest()).is_some_and(|(_, length)| length > 1) {
             return false;
         }
         let free = next.is_none_or(|next| {
@@ -60,6 +64,38 @@ impl<'a> Parser<'a> {
         clause.verbs = with_particle;
         clause.verb_text = format!("{first} {word}");
         self.position += 1;
+        true
+    }
+
+    /// "the fridge should contain the milk": it is to be put there.
+    pub(super) fn contents_told(&mut self, clause: &mut Clause<'a>) -> bool {
+        let [vessel] = clause.objects.as_slice() else { return false };
+        let takes = matches!(&vessel.head, Head::Noun(noun) if self.has_affordance(noun, "receptacle"));
+        let length = usize::from(matches!(self.peek(), Some("should" | "must" | "shall" | "to")));
+        if !takes || !matches!(self.word_at(length), Some("contain" | "contains" | "hold" | "holds")) {
+            return false;
+        }
+        let start = self.position;
+        self.position += length + 1;
+        let things = self.phrases(0);
+        if things.is_empty() {
+            self.position = start;
+            return false;
+        }
+        if let Some(liquid) = things[0].liquid() {
+            clause.complement.extend(super::super::mention::filled(liquid));
+            return true;
+        }
+        clause.places = vec![Place::new(Relation::In, "in", vessel.clone())];
+        clause.objects = things;
+        clause.verbs = self
+            .lexicon
+            .verbs("put")
+            .into_iter()
+            .filter(|(_, p, _)| p.is_empty())
+            .map(|(_, _, v)| v)
+            .collect();
+        clause.verb_text = "put".to_owned();
         true
     }
 
@@ -127,6 +163,7 @@ impl<'a> Parser<'a> {
                 [",", ".", "and", "then", "before", "after", "while", "but", "so", "again", "please"]
                     .contains(next)
                     || preposition(&[next]).is_some() && self.position > start
+                    || self.lexicon.longest_small("polite", &rest[length..]).is_some_and(|length| length > 1)
             });
             let particle = self.position == start && preposition(&rest[..length]).is_some();
             if !ends
@@ -169,6 +206,10 @@ impl<'a> Parser<'a> {
 
     /// A prepositional phrase.
     pub(super) fn place(&mut self, clause: &mut Clause<'a>) -> bool {
+        if let Some(phrase) = self.somewhere() {
+            clause.places.push(Place::new(Relation::In, "in", phrase));
+            return true;
+        }
         let Some((relation, length)) = preposition(&self.rest()) else { return false };
         let start = self.position;
         self.position += length;
@@ -206,6 +247,7 @@ impl<'a> Parser<'a> {
             object.except.append(&mut phrase.except);
         }
         let said = self.text_between(start, start + length);
+        self.last_place = Some(phrase.clone());
         clause.places.push(Place::new(relation, &said, phrase));
         self.more_places(clause, relation);
         true
@@ -241,8 +283,8 @@ impl<'a> Parser<'a> {
             _ => return false,
         };
         let from = clause.places.iter().find(|place| place.relation == Relation::From);
-        let Some(from) = from.or(clause.places.first()) else { return false };
-        let mut phrase = from.phrase.clone();
+        let from = from.or(clause.places.first()).map(|place| &place.phrase);
+        let Some(mut phrase) = from.or(self.last_place.as_ref()).cloned() else { return false };
         phrase.other = true;
         (phrase.definite, phrase.indefinite) = (false, true);
         clause.places.push(Place::new(relation, "to", phrase));
@@ -262,7 +304,15 @@ impl<'a> Parser<'a> {
                 self.position = start;
                 return;
             };
-            let another_pair = relation != Relation::From && preposition(&self.rest()).is_some()
+            let mut behind = self.ahead(0);
+            if behind.skip_joins() {
+                behind.phrases(0);
+            }
+            behind.position += usize::from(behind.peek().is_some_and(is_going));
+            let goes_elsewhere = preposition(&behind.rest())
+                .is_some_and(|(other, _)| other != Relation::From && other != Relation::With);
+            let another_pair = relation != Relation::From
+                && (goes_elsewhere || preposition(&self.rest()).is_some())
                 || matches!(self.peek(), Some("on" | "off" | "should" | "must" | "is" | "are" | "needs"));
             if another_pair {
                 self.position = start;

@@ -1,6 +1,8 @@
 //! What opens a clause: joins, politeness, order words, negation, who is spoken to.
 
-use super::super::syntax::Link;
+use super::super::inflect::VerbForm;
+use super::super::lexicon::Act;
+use super::super::syntax::{Link, preposition};
 use super::Parser;
 
 /// What opens a clause.
@@ -9,6 +11,8 @@ pub(super) struct Opening {
     pub(super) negated: bool,
     pub(super) condition: bool,
     pub(super) robots: Vec<String>,
+    /// A new sentence.
+    pub(super) sentence: bool,
     /// `before you …, …`: this clause comes after the next.
     pub(super) after_next: bool,
     /// `… after you …`: this clause comes before the one said before it.
@@ -23,6 +27,7 @@ impl Parser<'_> {
             negated: false,
             condition: false,
             robots: Vec::new(),
+            sentence: self.position.checked_sub(1).is_some_and(|at| self.words[at] == "."),
             after_next: false,
             before_previous: false,
         };
@@ -54,17 +59,20 @@ impl Parser<'_> {
             if self.reason() {
                 continue;
             }
+            opening.sentence |= word == ".";
             match word {
                 "let" if self.ahead(1).verbs_here().is_some() => {}
+                "go" | "come" if self.another_verb_follows() => {}
                 "should" | "shall" | "must" | "can" | "has" | "will" if !opening.robots.is_empty() => {}
                 "have" | "let" if self.ahead(1).robot().is_some() => {}
                 "if" => {
                     opening.condition = true;
-                    opening.before_previous = !first;
+                    opening.before_previous = !first && !self.is_fronted();
                 }
                 "to" if self.word_at(1) == Some("be") && self.word_at(2).is_some() => self.position += 1,
                 "," | "." | "and" | "so" | "but" | "plus" | "first" | "firstly" | "to" | "you" | "i"
                 | "we" => {}
+                "with" if self.state_follows() => {}
                 "before" => {
                     if first {
                         opening.after_next = true;
@@ -73,7 +81,7 @@ impl Parser<'_> {
                     }
                 }
                 "after" | "once" | "when" => {
-                    if first {
+                    if first || self.is_fronted() {
                         // The next clause follows by its position.
                     } else {
                         opening.before_previous = true;
@@ -97,12 +105,54 @@ impl Parser<'_> {
         opening
     }
 
+    /// "… so (that) you can put it on the table": an order after all; how many words stand before its verb.
+    fn so_you_can_put(&self) -> Option<usize> {
+        let person = if self.word_at(1) == Some("that") { 2 } else { 1 };
+        let can = matches!(self.word_at(person), Some("you" | "i" | "we"))
+            && matches!(self.word_at(person + 1), Some("can" | "could" | "may"));
+        let placing =
+            |verbs: &[&super::super::lexicon::Verb]| verbs.iter().any(|verb| verb.act == Act::Place);
+        let puts = self.ahead(person + 2).verbs_here().is_some_and(|(_, verbs, _)| placing(&verbs));
+        (can && puts).then_some(person + 2)
+    }
+
+    /// "go turn on the lamp": the going says nothing.
+    fn another_verb_follows(&self) -> bool {
+        let ahead = self.ahead(1);
+        ahead.longest_noun().is_none()
+            && ahead.peek().is_some_and(|word| preposition(&[word]).is_none())
+            && ahead.verbs_here().is_some_and(|(form, verbs, _)| {
+                form == VerbForm::Base && verbs.iter().any(|verb| verb.act != Act::Go)
+            })
+    }
+
+    /// "with the lights off": a state that is to hold.
+    pub(super) fn state_follows(&self) -> bool {
+        let mut ahead = self.ahead(1);
+        if self.peek() != Some("with") || ahead.phrases(0).is_empty() {
+            return false;
+        }
+        let state = ahead.peek().and_then(|word| self.lexicon.adjective(&[word]));
+        let ends = ahead.word_at(1).is_none_or(|word| [",", ".", "and", "at", "afterwards"].contains(&word));
+        ends && state.is_some_and(|state| state.set.keys().any(|p| p == "isOpen" || p == "isToggled"))
+    }
+
+    /// "… . Once it is clean, put it away": what is said first is done first.
+    fn is_fronted(&self) -> bool {
+        let before = self.position.checked_sub(1).and_then(|at| self.words.get(at));
+        before.is_some_and(|word| word == "." || word == "and")
+    }
+
     /// "so I can see", "because it is late": passes over why.
     fn reason(&mut self) -> bool {
         const PERSONS: [&str; 10] =
             ["i", "we", "you", "he", "she", "they", "it", "that", "nobody", "everyone"];
         let why = match self.peek() {
             Some("because") => true,
+            Some("so") if self.so_you_can_put().is_some() => {
+                self.position += self.so_you_can_put().unwrap_or(0);
+                return true;
+            }
             Some("so" | "since") => self.word_at(1).is_some_and(|word| PERSONS.contains(&word)),
             _ => false,
         };

@@ -5,7 +5,7 @@ use lamma_domains::goal::PropertyValue;
 use super::super::lexicon::{Act, Settings, Verb};
 use super::super::mention::Spoken;
 use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
-use super::{Change, Interpreter};
+use super::{Change, Fact, Interpreter};
 
 impl<'a> Interpreter<'_, 'a> {
     pub(super) fn set(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
@@ -23,8 +23,13 @@ impl<'a> Interpreter<'_, 'a> {
             .collect();
         let objects = self.objects(clause, &at, verb.wants.as_deref());
         let mut changed = Vec::new();
-        let microwaved = verb.act == Act::Cook && clause.places.iter().any(is_microwave);
         for &entity in &objects {
+            let within = |fact: &Fact| {
+                matches!(fact.change, Change::Inside(at) if self.discourse.entities[at].kind() == "Microwave")
+                    && fact.entity == entity
+            };
+            let microwaved = verb.act == Act::Cook
+                && (clause.places.iter().any(is_microwave) || self.facts.iter().any(within));
             let target = self.switch_of(entity, &verb.set);
             let mut states = self.discourse.adapted_states(target, verb);
             if microwaved && states.remove("isCooked").is_some() {
@@ -59,8 +64,11 @@ impl<'a> Interpreter<'_, 'a> {
         let is_tool = |place: &Place| matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| verb.tools.contains(kind)));
         let takes = |place: &&Place| {
             (place.relation == Relation::In && cuts || place.relation == Relation::To && !is_tool(place))
-                && matches!(&place.phrase.head, Head::Noun(noun)
-                    if noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")))
+                && match &place.phrase.head {
+                    Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")),
+                    Head::Pronoun { plural } => !plural && place.relation == Relation::To,
+                    _ => false,
+                }
         };
         let Some(place) = clause.places.iter().find(takes) else { return };
         if let [place, ..] = self.discourse.mention(&place.phrase, &[], Some("receptacle"))[..] {
@@ -108,21 +116,22 @@ impl<'a> Interpreter<'_, 'a> {
     }
 
     pub(super) fn fill(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
-        let liquid_of = |phrase: &Phrase| match &phrase.head {
-            Head::Liquid(liquid) => Some(liquid.clone()),
-            Head::Noun(noun) if ["water", "wine", "coffee"].contains(&noun.word.as_str()) => {
-                Some(noun.word.clone())
-            }
-            _ => None,
-        };
+        let out_of = |place: &&Place| place.relation == Relation::From && place.phrase.liquid().is_none();
+        let into = |place: &Place| matches!(place.relation, Relation::In | Relation::To);
+        if let (Act::Pour, Some(from), false) =
+            (verb.act, clause.places.iter().find(out_of), clause.places.iter().any(into))
+        {
+            let objects = vec![from.phrase.clone()];
+            return self.empty(&Clause { objects, places: Vec::new(), ..clause.clone() });
+        }
         let said = clause
             .objects
             .iter()
             .flat_map(|phrase| std::iter::once(phrase).chain(&phrase.with))
             .chain(clause.places.iter().map(|place| &place.phrase))
-            .find_map(liquid_of);
+            .find_map(|phrase| phrase.liquid().map(str::to_owned));
         let vessels: Vec<Phrase> =
-            clause.objects.iter().filter(|phrase| liquid_of(phrase).is_none()).cloned().collect();
+            clause.objects.iter().filter(|phrase| phrase.liquid().is_none()).cloned().collect();
         let mut fill = clause.clone();
         if verb.act == Act::Pour || vessels.is_empty() {
             fill.objects = clause
@@ -130,7 +139,7 @@ impl<'a> Interpreter<'_, 'a> {
                 .iter()
                 .filter(|place| {
                     matches!(place.relation, Relation::In | Relation::To)
-                        && liquid_of(&place.phrase).is_none()
+                        && place.phrase.liquid().is_none()
                 })
                 .map(|place| place.phrase.clone())
                 .collect();
@@ -138,7 +147,7 @@ impl<'a> Interpreter<'_, 'a> {
             fill.objects = vessels;
         }
         let solid =
-            clause.objects.iter().any(|phrase| phrase.with.iter().any(|with| liquid_of(with).is_none()));
+            clause.objects.iter().any(|phrase| phrase.with.iter().any(|with| with.liquid().is_none()));
         let objects = self.objects(&fill, &[], Some("canFillWithLiquid"));
         if said.is_none() && solid {
             return Spoken { objects, ..Spoken::default() };

@@ -2,7 +2,7 @@
 
 use super::super::lexicon::{Act, Verb};
 use super::super::mention::Spoken;
-use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
+use super::super::syntax::{Clause, Head, Link, Phrase, Place, Relation};
 use super::{Change, Interpreter};
 
 impl<'a> Interpreter<'_, 'a> {
@@ -14,15 +14,23 @@ impl<'a> Interpreter<'_, 'a> {
         if !clause.complement.is_empty() && clause.places.is_empty() {
             return self.keep(clause);
         }
+        if let Some(laid) = self.laid_with(clause) {
+            return self.place(&laid, verb, next);
+        }
         let (goal, inner, at) = self.sort_places(clause);
         if let Some(goal) = goal {
             if let Some(inner) = inner {
                 return self.put_nested(clause, &at, &inner, &goal);
             }
+            if let Some(under) = self.is_said_to_stand(&goal) {
+                return self.put_nested(clause, &at, &goal, &under);
+            }
             return self.put(clause, &at, &goal);
         }
+        let meanwhile = clause.link == Link::While && self.lamp_wanted && self.switches_on;
         if let Some(near) = clause.places.iter().find(|place| place.relation == Relation::Near)
             && verb.act == Act::Place
+            && !meanwhile
         {
             return self.put_beside(clause, &at, near);
         }
@@ -37,6 +45,7 @@ impl<'a> Interpreter<'_, 'a> {
             let again = |phrase: &Phrase| {
                 matches!(phrase.head, Head::Pronoun { .. } | Head::Slices | Head::Everything)
                     || clause.objects.iter().any(|mine| mine.head == phrase.head)
+                    || clause.objects.iter().any(|mine| is_one_of(phrase, mine))
             };
             (next.objects.is_empty() || next.objects.iter().any(again))
                 && next
@@ -74,6 +83,43 @@ impl<'a> Interpreter<'_, 'a> {
             }
         }
         Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
+    }
+
+    /// "in a box that is on a chair": the box is on the chair in the end.
+    fn is_said_to_stand(&self, goal: &Place) -> Option<Place> {
+        let scene = self.discourse.scene;
+        let vessel = matches!(&goal.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
+            scene.affords(kind, "pickupable") && scene.affords(kind, "receptacle")
+        }));
+        let takes = |place: &&Place| {
+            place.relation == Relation::In
+                && matches!(&place.phrase.head, Head::Noun(noun)
+                    if noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")))
+        };
+        goal.phrase.at.iter().find(takes).filter(|_| vessel).cloned()
+    }
+
+    /// "set the table with a plate and a fork": the plate and the fork go on the table.
+    fn laid_with(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
+        let [place] = clause.objects.as_slice() else { return None };
+        let with = |place: &&Place| place.relation == Relation::With && self.is_movable(&place.phrase);
+        let things: Vec<Phrase> = clause
+            .places
+            .iter()
+            .filter(with)
+            .map(|place| place.phrase.clone())
+            .chain(place.with.clone())
+            .collect();
+        let takes = matches!(&place.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
+            self.discourse.scene.affords(kind, "receptacle") && !self.discourse.scene.affords(kind, "pickupable")
+        }));
+        (takes && !things.is_empty()).then(|| {
+            let mut laid = clause.clone();
+            let place = Phrase { with: Vec::new(), ..place.clone() };
+            laid.places = vec![Place::new(Relation::In, "on", place)];
+            laid.objects = things;
+            laid
+        })
     }
 
     /// "go to the fridge and open it": going is no goal, but "it" is the fridge.
@@ -140,8 +186,14 @@ impl<'a> Interpreter<'_, 'a> {
                 scene.has(k) && self.discourse.lexicon.is_small("compartments", &[&k.to_lowercase()])
             }))
         };
+        // "on the top shelf inside the fridge": a part of the fridge.
+        let shelves_of_its_own = |i: usize| {
+            matches!(&clause.places[i].phrase.head, Head::Noun(noun)
+                if noun.kinds.first().is_some_and(|k| scene.affords(k, "isColdSource")))
+        };
         let (goal, inner) = match goals.as_slice() {
             [.., a, b] if movable(*a) && !movable(*b) => (*b, Some(*a)),
+            [a, b] if compartment(*a) && shelves_of_its_own(*b) => (*b, None),
             [a, b] if compartment(*a) && !compartment(*b) && relation(*b) == Relation::In => (*a, None),
             _ => (to.unwrap_or(last), None),
         };
@@ -157,7 +209,17 @@ impl<'a> Interpreter<'_, 'a> {
     /// The objects end in the place.
     pub(super) fn put(&mut self, clause: &Clause<'a>, at: &[Place], goal: &Place) -> Spoken {
         let mut objects = self.objects(clause, at, Some("pickupable"));
-        let places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
+        let defaults: Vec<&String> = clause.verbs.iter().flat_map(|verb| &verb.default).collect();
+        let mut goal = goal.clone();
+        if let (Head::Noun(noun), false) = (&mut goal.phrase.head, defaults.is_empty()) {
+            noun.kinds.sort_by_key(|kind| !defaults.contains(&kind));
+        }
+        let mut places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
+        if matches!(goal.phrase.head, Head::Pronoun { .. })
+            && places.iter().any(|place| objects.contains(place))
+        {
+            places = self.place_spoken_of(&objects).into_iter().collect();
+        }
         self.leave_what_does_not_fit(clause, &mut objects, &places);
         if let (true, Some(&place)) = (goal.on_top, places.first()) {
             let kind = self.discourse.entities[place].kind().to_owned();
@@ -167,6 +229,11 @@ impl<'a> Interpreter<'_, 'a> {
             }
         }
         self.add_asked(&places);
+        // "serve the potato hot on the plate"
+        for &entity in objects.iter().filter(|_| !clause.complement.is_empty()) {
+            let states = self.discourse.possible_states(entity, clause.complement.clone());
+            self.add_states(entity, &states);
+        }
         if let Some(&place) = places.first() {
             for &entity in &objects {
                 if entity != place {
@@ -175,6 +242,15 @@ impl<'a> Interpreter<'_, 'a> {
             }
         }
         Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
+    }
+
+    /// The place that something else was put in last: "fill the cup and put it there too".
+    fn place_spoken_of(&self, objects: &[usize]) -> Option<usize> {
+        let places = self.discourse.spoken.iter().rev().flat_map(|spoken| &spoken.places);
+        places.copied().find(|place| {
+            let kind = self.discourse.entities[*place].kind();
+            !objects.contains(place) && self.discourse.scene.affords(kind, "receptacle")
+        })
     }
 
     /// "everything in the fridge": what the fridge takes.
@@ -207,7 +283,7 @@ impl<'a> Interpreter<'_, 'a> {
     }
 
     /// Places one thing, and lets what the receptacle takes decide what both are.
-    fn put_in(&mut self, entity: usize, place: usize) {
+    pub(super) fn put_in(&mut self, entity: usize, place: usize) {
         self.discourse.fit(entity, place);
         self.add(entity, Change::Inside(place));
     }
@@ -277,5 +353,15 @@ impl<'a> Interpreter<'_, 'a> {
             .filter_map(|parent| scene.named(parent))
             .map(|parent| parent.kind.clone())
             .next()
+    }
+}
+
+/// "the food: the apple goes …": whether one phrase names a member of another's class.
+fn is_one_of(phrase: &Phrase, class: &Phrase) -> bool {
+    match (&phrase.head, &class.head) {
+        (Head::Noun(one), Head::Noun(class)) => {
+            class.class && one.kinds.iter().any(|kind| class.kinds.contains(kind))
+        }
+        _ => false,
     }
 }

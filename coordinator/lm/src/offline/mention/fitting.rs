@@ -39,12 +39,13 @@ impl Discourse<'_> {
     }
 
     /// Lets the receptacle and the thing decide what each other is: the best pair of types that go together.
+    /// What a receptacle is called counts for more: "a knife in a cup" is a small knife rather than a mug.
     pub fn fit(&mut self, entity: usize, place: usize) {
         let (things, places) = (self.entities[entity].kinds.clone(), self.entities[place].kinds.clone());
         let mut best: Option<(usize, &str, &str)> = None;
         for (i, thing) in things.iter().enumerate() {
             for (j, place) in places.iter().enumerate() {
-                let rank = 2 * (i + j) + if self.scene.surely_accepts(place, thing) { 0 } else { 3 };
+                let rank = 2 * i + 3 * j + if self.scene.surely_accepts(place, thing) { 0 } else { 3 };
                 if self.scene.accepts(place, thing) && best.is_none_or(|(known, _, _)| rank < known) {
                     best = Some((rank, thing, place));
                 }
@@ -80,7 +81,11 @@ impl Discourse<'_> {
     }
 
     fn can_be_cooked(&self, kind: &str) -> bool {
-        self.scene.affords(kind, "cookable") || self.cooks_in_slices(kind)
+        let opened = || {
+            self.lexicon.is_small("cooked_once_open", &[&kind.to_lowercase()])
+                && (self.scene.team_has(&["SliceObject"]) || self.scene.team_has(&["BreakObject"]))
+        };
+        self.scene.affords(kind, "cookable") || self.cooks_in_slices(kind) || opened()
     }
 
     fn cooks_in_slices(&self, kind: &str) -> bool {

@@ -2,11 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use super::super::syntax::{Phrase, Place};
+use super::super::syntax::{Phrase, Place, Quantity};
 use super::{Discourse, Which};
 
 impl Discourse<'_> {
-    pub(super) fn slices(&mut self) -> Vec<usize> {
+    /// "the slices": of all that was sliced last, else of what could be.
+    pub(super) fn slices(&mut self, plural: bool) -> Vec<usize> {
+        let sliced = |&entity: &usize| self.entities[entity].asked.contains_key("isSliced");
+        let last = self.spoken.iter().rev().find(|spoken| spoken.objects.iter().any(sliced));
+        if let Some(spoken) = last.filter(|spoken| plural && spoken.objects.len() > 1) {
+            return spoken.objects.iter().copied().filter(sliced).collect();
+        }
         let last = (0..self.entities.len())
             .rev()
             .find(|&e| self.entities[e].kinds.iter().any(|kind| self.scene.affords(kind, "sliceable")));
@@ -16,7 +22,8 @@ impl Discourse<'_> {
         last.into_iter().collect()
     }
 
-    pub(super) fn everything(&mut self, phrase: &Phrase, at: &[Place]) -> Vec<usize> {
+    pub(super) fn everything(&mut self, phrase: &Phrase, at: &[Place], wants: Option<&str>) -> Vec<usize> {
+        let fixed = wants.filter(|wants| ["openable", "toggleable"].contains(wants));
         let places: Vec<&Place> = phrase.at.iter().chain(at).collect();
         let except = self.exceptions(&phrase.except);
         let mentioned: BTreeSet<String> = if phrase.other {
@@ -27,13 +34,19 @@ impl Discourse<'_> {
         if places.is_empty() && !phrase.other {
             // Who names exceptions has thought of everything.
             let factor = if except.is_empty() { 0.45 } else { 0.7 };
-            self.assume(format!("\"{}\" means every single thing that can be carried", phrase.text), factor);
+            match fixed {
+                Some(wants) => self.assume(format!("\"{}\" means all that is {wants}", phrase.text), 0.8),
+                None => {
+                    let text = format!("\"{}\" means every single thing that can be carried", phrase.text);
+                    self.assume(text, factor);
+                }
+            }
         }
         let chosen: Vec<(String, String)> = self
             .scene
             .kinds()
             .flat_map(|kind| self.scene.of_kind(kind))
-            .filter(|object| object.affordances.iter().any(|a| a == "pickupable"))
+            .filter(|object| object.affordances.iter().any(|a| a == fixed.unwrap_or("pickupable")))
             .filter(|object| places.iter().all(|place| self.is_at(object, place)))
             .filter(|object| !except.contains(&object.kind) && !except.contains(&object.name))
             .filter(|object| !mentioned.contains(&object.kind))

@@ -13,6 +13,13 @@ impl Parser<'_> {
         let is_modifier = |word: &str| {
             self.lexicon.is_small("modifiers", &[word]) || self.lexicon.adjective(&[word]).is_some()
         };
+        // "a cleaned, mug full of water": a comma too many.
+        let state = before.is_some_and(|word| {
+            self.lexicon.adjective(&[word]).is_some() && self.lexicon.noun(&[word]).is_none()
+        });
+        if state && self.longest_noun_at(self.position + 1).is_some() && self.word_at(1) != Some("and") {
+            return true;
+        }
         before.is_some_and(|word| is_modifier(word))
             && self.word_at(1).is_some_and(is_modifier)
             && (2..5).any(|at| self.longest_noun_at(self.position + at).is_some())

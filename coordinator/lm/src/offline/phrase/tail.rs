@@ -53,6 +53,16 @@ impl Parser<'_> {
                     self.where_it_is(phrase, depth);
                 }
                 Some("that" | "which")
+                    if matches!(self.word_at(1), Some("has" | "have" | "had"))
+                        && self.word_at(2) == Some("been") =>
+                {
+                    self.position += 3;
+                    if !self.adjective(phrase) {
+                        self.position = start;
+                        return;
+                    }
+                }
+                Some("that" | "which")
                     if matches!(self.word_at(1), Some("has" | "contains" | "have" | "holds")) =>
                 {
                     self.position += 2;
@@ -137,10 +147,12 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether a noun is first of all a compartment that the scene has.
-    fn is_compartment(&self, noun: &Noun) -> bool {
-        noun.kinds.first().is_some_and(|kind| {
-            self.scene.has(kind) && self.lexicon.is_small("compartments", &[&kind.to_lowercase()])
-        })
+    /// Whether a noun means first of all a compartment.
+    pub(super) fn is_compartment(&self, noun: &Noun) -> bool {
+        noun.kinds.iter().find(|kind| self.scene.has(kind)).is_some_and(|kind| self.is_compartment_kind(kind))
+    }
+
+    pub(super) fn is_compartment_kind(&self, kind: &str) -> bool {
+        self.lexicon.is_small("compartments", &[&kind.to_lowercase()])
     }
 }

@@ -22,6 +22,7 @@ use crate::error::Failure;
 use crate::exit;
 use crate::json;
 use crate::launch::launch;
+use crate::method::Variant;
 use crate::out::say;
 use crate::supervise::RunDir;
 use crate::watch::Silent;
@@ -51,6 +52,12 @@ impl Finished {
 
 /// Runs the set; 0 if every task could be run and no plan was wrong, whatever else came of it.
 pub fn bench(args: &BenchArgs, folder: &Path) -> Result<u8, Failure> {
+    Variant::of(args)?;
+    if args.common.travel {
+        return Err(Failure::bad_input(
+            "--travel is for household scenes: PDDL files state their own durations",
+        ));
+    }
     let set = set::read(folder, args.factored, args.only.as_deref())?;
     let runs = RunDir::create(args.common.run_dir.as_deref()).map_err(Failure::bad_input)?;
     let names: Vec<String> = set.tasks.iter().map(|task| task.id.clone()).collect();

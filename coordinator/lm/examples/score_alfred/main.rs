@@ -1,0 +1,149 @@
+//! Scores the embedded default on crowd-written sentences with known goals.
+//!
+//! `score_alfred FOLDER [clean|dev|all] [SENTENCES] [SHOW]` reads `alfred/train_compact.json.gz` and `ai2thor/*`
+//! in the folder, takes that many sentences at random (by a hash), and prints the rate of exact goals and the
+//! causes of the rest.
+//!
+//! `clean` is a quarter of the tasks, by two hashes of the task's id, that nobody has read while the grammar and
+//! the lexicon were written: it reports. `dev` is the rest; failures are shown for it alone. `all` is both.
+//! `LEXICON=DIR` reads the lexicon's files from a folder, so that it may be tuned without building.
+//! `STRICT=1` counts a question as a failure and a state that does not last as missing.
+
+mod facts;
+mod judge;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Command;
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
+
+use lamma_lm::{LanguageModel, Offline};
+use serde_json::Value;
+
+use facts::Facts;
+use judge::{judge, wanted};
+
+/// Whatever goes wrong in an example.
+pub type Failure = Box<dyn std::error::Error>;
+
+/// Confusions shown.
+const MOST_CONFUSIONS: usize = 25;
+
+fn main() -> Result<(), Failure> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let usage = "usage: score_alfred FOLDER [clean|dev|all] [SENTENCES] [SHOW]";
+    let folder = Path::new(arguments.first().ok_or(usage)?);
+    let part = arguments.get(1).map_or("clean", String::as_str);
+    let limit = arguments.get(2).and_then(|n| n.parse().ok()).unwrap_or(usize::MAX);
+    let show: usize = arguments.get(3).and_then(|n| n.parse().ok()).unwrap_or(0);
+    let facts = Facts::read(folder)?;
+    let unpacked =
+        Command::new("gzip").arg("-dc").arg(folder.join("alfred/train_compact.json.gz")).output()?;
+    let tasks: Value = serde_json::from_slice(&unpacked.stdout)?;
+    let sentences = sentences(&tasks, part, limit);
+    let mut parser = match std::env::var_os("LEXICON") {
+        Some(folder) => Offline::from_folder(Path::new(&folder))?,
+        None => Offline::new()?,
+    };
+    let mut tally = Tally::default();
+    for (task, sentence) in &sentences {
+        let request = facts.request(task, sentence);
+        let started = Instant::now();
+        let answer = parser.decompose(&request, &AtomicBool::new(false))?;
+        tally.times.push(started.elapsed());
+        let wanted = wanted(task);
+        let verdict = judge(&answer, &wanted, &request, &parser.gloss(sentence));
+        let entry = tally.by_type.entry(task["type"].as_str().unwrap_or_default().to_owned()).or_default();
+        entry.1 += 1;
+        if verdict.cause.is_empty() {
+            entry.0 += 1;
+            continue;
+        }
+        *tally.causes.entry(verdict.cause.clone()).or_default() += 1;
+        if part == "dev" {
+            if let Some(confused) = verdict.confused {
+                *tally.confusions.entry(confused).or_default() += 1;
+            }
+            if tally.shown < show {
+                tally.shown += 1;
+                println!("{}\n  {sentence}\n  want {wanted:?}\n  got  {:?}", verdict.cause, verdict.got);
+            }
+        }
+    }
+    tally.print(part);
+    Ok(())
+}
+
+/// The sentences of a part, in an order that a hash gives.
+fn sentences<'t>(tasks: &'t Value, part: &str, limit: usize) -> Vec<(&'t Value, &'t str)> {
+    let mut found: Vec<(u64, &Value, &str)> = Vec::new();
+    for task in tasks["tasks"].as_array().into_iter().flatten() {
+        let id = task["id"].as_str().unwrap_or_default();
+        let clean = !fnv(id).is_multiple_of(2) && !crc32(id).is_multiple_of(2);
+        if part == "all" || clean == (part == "clean") {
+            for sentence in task["sentences"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+                found.push((fnv(&format!("{id}{sentence}")), task, sentence));
+            }
+        }
+    }
+    found.sort_by_key(|(hash, _, _)| *hash);
+    found.truncate(limit);
+    found.into_iter().map(|(_, task, sentence)| (task, sentence)).collect()
+}
+
+/// What was counted.
+#[derive(Default)]
+struct Tally {
+    by_type: BTreeMap<String, (usize, usize)>,
+    causes: BTreeMap<String, usize>,
+    confusions: BTreeMap<String, usize>,
+    times: Vec<Duration>,
+    shown: usize,
+}
+
+impl Tally {
+    fn print(mut self, part: &str) {
+        let exact: usize = self.by_type.values().map(|(good, _)| good).sum();
+        let all: usize = self.by_type.values().map(|(_, all)| all).sum();
+        println!("{part}: {exact}/{all} exact = {:.4}", exact as f64 / all.max(1) as f64);
+        self.times.sort();
+        if let (Some(median), Some(worst)) = (self.times.get(all / 2), self.times.last()) {
+            println!("median {median:?}, worst {worst:?}");
+        }
+        for (kind, (good, all)) in &self.by_type {
+            println!("  {kind:42} {good:5}/{all:5} = {:.3}", *good as f64 / *all as f64);
+        }
+        println!("the rest by cause:");
+        for (cause, count) in by_count(self.causes) {
+            println!("  {count:5} ({:4.1} %) {cause}", 100.0 * count as f64 / all.max(1) as f64);
+        }
+        for (confused, count) in by_count(self.confusions).into_iter().take(MOST_CONFUSIONS) {
+            println!("    {count:5} {confused}");
+        }
+    }
+}
+
+fn by_count(counts: BTreeMap<String, usize>) -> Vec<(String, usize)> {
+    let mut counts: Vec<(String, usize)> = counts.into_iter().collect();
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    counts
+}
+
+fn fnv(text: &str) -> u64 {
+    text.bytes()
+        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+}
+
+fn crc32(text: &str) -> u32 {
+    !text.bytes().fold(u32::MAX, |sum, byte| {
+        (0..8).fold(
+            sum ^ u32::from(byte),
+            |sum, _| if sum & 1 == 1 { sum >> 1 ^ 0xedb8_8320 } else { sum >> 1 },
+        )
+    })
+}
+
+fn strict() -> bool {
+    std::env::var_os("STRICT").is_some()
+}
