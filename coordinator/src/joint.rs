@@ -27,7 +27,7 @@ const REASON_EXPANSIONS: u64 = 20_000;
 
 /// What may be spent on a shorter schedule beyond the limits for each operator of the task, and at most: what it
 /// takes to look at a part of a schedule grows with the operators.
-const WORK_PER_OPERATOR: u64 = 2_000;
+const WORK_PER_OPERATOR: u64 = 1_000;
 const MOST_WORK: u64 = 20_000_000;
 
 /// What there is to plan.

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
 """How long `lamma plan` takes, as a whole process, on household tasks of 6 to 60 objects.
 
-    python3 tests/planner/household.py [--tasks 20] [--lamma-p DIR] [--peer-every 10]
+    python3 tests/planner/household.py [--tasks 20] [--lamma-p DIR] [--peer-every 10] [--warm 50]
 
-Tasks are generated from the seed: for `kitchen.pddl` beside this file and, with `--lamma-p`, for the domain
-`allactionrobot.pddl` of LaMMA-P in that folder (not shipped). Printed are the median and the 99th percentile of
-CPU and wall-clock time, what `lamma --version` takes alone, and, where Fast Downward is found (see ipc.py), how
-many times longer a call of its `lama-first` takes. Every plan is checked by `lamma validate`.
+Tasks are generated from the seed: for `kitchen.pddl` beside this file and, with `--lamma-p`, for the domains
+`allactionrobot.pddl` (numbers) and `robot1.pddl` of LaMMA-P in that folder (not shipped). Printed are the median and
+the 99th percentile of CPU and wall-clock time, what `lamma --version` takes alone, and, where Fast Downward is found
+(see ipc.py), how many times longer a call of its `lama-first` takes. Every plan is checked by `lamma validate`.
+
+With `--warm N` the same tasks are also planned N times each inside one process, as a robot plans its packages, and
+the median and the 99th percentile of each stage printed (build it first:
+`cargo build --release -p lamma-planner --example warm`).
 """
 
 import argparse
@@ -42,6 +46,17 @@ def kitchen(rng, size):
 
 
 def lamma_p(rng, size):
+    """A problem of `size` objects for LaMMA-P's robot1.pddl."""
+    objects = [f"object{n}" for n in range(size)]
+    init = [f"(at-location {o} {rng.choice(objects[: 1 + size // 3])})" for o in objects]
+    moved, sliced, switched, opened = rng.sample(objects, 4)
+    goal = [f"(at-location {moved} {opened})", f"(sliced {sliced})", f"(switch-off robot1 {switched})",
+            f"(object-open robot1 {opened})"]
+    return (f"(define (problem p) (:domain robot1) (:objects robot1 - robot {' '.join(objects)} - object) "
+            f"(:init {' '.join(init)}) (:goal (and {' '.join(goal)})))")
+
+
+def lamma_p_numbers(rng, size):
     """A problem of `size` objects for LaMMA-P's allactionrobot.pddl."""
     objects = ["fridge"] + [f"object{n}" for n in range(size - 1)]
     init = ["(is-fridge fridge)", "(= (fridge-state fridge) 0)", "(not (inaction robot1))"]
@@ -70,6 +85,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--lamma-p", help="a folder with LaMMA-P's domains")
     parser.add_argument("--peer-every", type=int, default=10, help="run the peer on every Nth task only")
+    parser.add_argument("--warm", type=int, help="also plan each task so often inside one process")
     parser.add_argument("--lamma", default=os.path.join(ipc.ROOT, "target/release/lamma"))
     options = parser.parse_args()
     lamma = os.path.abspath(options.lamma)
@@ -80,34 +96,51 @@ def main():
         print("fast-downward.py is not installed: no comparison", file=sys.stderr)
     worlds = [("kitchen", os.path.join(ipc.HERE, "kitchen.pddl"), kitchen)]
     if options.lamma_p:
-        worlds.append(("LaMMA-P", os.path.join(os.path.abspath(options.lamma_p), "allactionrobot.pddl"), lamma_p))
+        given = os.path.abspath(options.lamma_p)
+        worlds.append(("robot1", os.path.join(given, "robot1.pddl"), lamma_p))
+        worlds.append(("allaction", os.path.join(given, "allactionrobot.pddl"), lamma_p_numbers))
     with tempfile.TemporaryDirectory() as folder:
         alone = [timed([lamma, "--version"], folder) for _ in range(20)]
         print(f"`lamma --version`: {statistics.median(a[0] for a in alone) * 1e3:.1f} ms CPU, "
               f"{statistics.median(a[1] for a in alone) * 1e3:.1f} ms")
-        print(f"\n{'domain':8} {'objects':>7} {'tasks':>5} {'CPU p50':>8} {'p99 ms':>7} {'wall p50':>8} {'p99 ms':>7} {'times faster than a lama-first call (CPU)':>10}")
+        print(f"\n{'domain':9} {'objects':>7} {'tasks':>5} {'CPU p50':>8} {'p99 ms':>7} {'wall p50':>8} {'p99 ms':>7} "
+              f"{'lama-first call / ours: CPU':>28} {'wall':>6}")
         for name, domain, world in worlds:
+            everything, problems = [], []
             for size in SIZES:
                 rng = random.Random(options.seed * 1000 + size)
-                cpus, walls, ratios = [], [], []
+                rows, theirs = [], []
                 for number in range(options.tasks):
-                    problem, plan = os.path.join(folder, "problem.pddl"), os.path.join(folder, "plan")
+                    problem, plan = os.path.join(folder, f"{name}-{size}-{number}.pddl"), os.path.join(folder, "plan")
+                    problems.append(problem)
                     with open(problem, "w") as file:
                         file.write(world(rng, size))
                     cpu, wall, code = timed([lamma, "plan", domain, problem, "--plan-file", plan], folder)
                     if code != 0 or subprocess.run([lamma, "validate", domain, problem, plan],
                                                    capture_output=True).returncode != 0:
                         sys.exit(f"{name}, {size} objects, task {number}: no valid plan (exit code {code})")
-                    cpus.append(cpu * 1e3)
-                    walls.append(wall * 1e3)
+                    rows.append((cpu * 1e3, wall * 1e3))
                     if downward and number % options.peer_every == 0:
-                        theirs, _, code = timed([sys.executable, downward, "--plan-file", os.path.join(folder, "theirs"),
-                                                 "--alias", "lama-first", domain, problem], folder)
-                        if code == 0:
-                            ratios.append(theirs / max(cpu, 1e-4))
-                ratio = f"{ipc.mean(ratios):.0f}" if ratios else "-"
-                print(f"{name:8} {size:7} {len(cpus):5} {statistics.median(cpus):8.1f} {percentile(cpus, 0.99):7.1f} "
-                      f"{statistics.median(walls):8.1f} {percentile(walls, 0.99):7.1f} {ratio:>10}", flush=True)
+                        peer = timed([sys.executable, downward, "--plan-file", os.path.join(folder, "theirs"),
+                                      "--alias", "lama-first", domain, problem], folder)
+                        if peer[2] == 0:
+                            theirs.append((peer[0] / max(cpu, 1e-4), peer[1] / max(wall, 1e-4)))
+                report(name, size, rows, theirs)
+                everything += rows
+            report(name, "all", everything, [])
+            if options.warm:
+                warm = os.path.join(os.path.dirname(lamma), "examples/warm")
+                print(subprocess.run([warm, str(options.warm), domain, *problems], capture_output=True, text=True,
+                                     check=True).stdout, flush=True)
+
+
+def report(name, size, rows, theirs):
+    """One line of the table: CPU and wall-clock times in milliseconds, and the peer's times as multiples."""
+    (cpus, walls), shares = zip(*rows), ["-", "-"]
+    if theirs:
+        shares = [f"{ipc.mean(column):.0f}" for column in zip(*theirs)]
+    print(f"{name:9} {size:>7} {len(rows):5} {statistics.median(cpus):8.1f} {percentile(cpus, 0.99):7.1f} "
+          f"{statistics.median(walls):8.1f} {percentile(walls, 0.99):7.1f} {shares[0]:>28} {shares[1]:>6}", flush=True)
 
 
 if __name__ == "__main__":

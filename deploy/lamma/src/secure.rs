@@ -116,6 +116,7 @@ fn rules(agents: u16) -> Value {
         allow("asks who is there", &watch, "ingress", watched.clone());
         allow("hears who is there", &["liveliness_token"], "egress", watched);
         allow("asks whether it was heard", &["query"], "ingress", vec![keys.sync(node)]);
+        allow("is told so", &["reply"], "egress", vec![keys.sync(node)]);
         subjects.push(json!({ "id": name, "cert_common_names": [name] }));
         policies.push(json!({ "id": name, "rules": ids, "subjects": [name] }));
     }

@@ -84,7 +84,7 @@ fn stop_some(bus: &str, place: &str, robots: u16, sends: u32) {
     let mut simulator = open(bus, place, Node::Simulator);
     let mut last = 0;
     for every in [0, 7, 2, 1] {
-        let is_stopped = |agent: &usize| every > 0 && agent % every == 0;
+        let is_stopped = |agent: &usize| every > 0 && agent.is_multiple_of(every);
         let all = children.processes().enumerate();
         let stopped: Vec<&Child> = all.filter(|(i, _)| is_stopped(i)).map(|(_, c)| c).collect();
         stopped.iter().for_each(|c| signal(c, Signal::STOP));

@@ -10,7 +10,12 @@ pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a Name>) -> O
     if wanted.len() > LONGEST {
         return None;
     }
-    let allowed = (wanted.chars().count() / 3).max(1);
+    // Of one letter nothing is left to recognise.
+    let letters = wanted.chars().count();
+    if letters < 2 {
+        return None;
+    }
+    let allowed = (letters / 3).max(1);
     known
         .into_iter()
         .filter(|name| name.as_str().len().abs_diff(wanted.len()) <= allowed && *name != wanted)
@@ -65,5 +70,6 @@ mod tests {
         assert_eq!(near("AT_LOCATION"), Some("at-location"));
         assert_eq!(near("closed"), None);
         assert_eq!(near(&"x".repeat(1000)), None);
+        assert_eq!(nearest("p", &[Name::new("q")]), None, "any letter is one letter off any other");
     }
 }

@@ -53,7 +53,7 @@ impl<T> Csr<T> {
     }
 
     /// Every row in order.
-    pub fn rows(&self) -> impl Iterator<Item = &[T]> {
+    pub fn rows(&self) -> impl Iterator<Item = &[T]> + Clone {
         (0..self.len()).map(|row| self.row(row))
     }
 }

@@ -7,8 +7,8 @@ use std::collections::BTreeSet;
 
 use lamma_pddl::Name;
 use lamma_pddl::ast::{
-    AssignOp, Atom, Condition, Domain, Effect, FunctionTerm, GroundAtom, Init, NumericExpr, Problem, Term,
-    TypedName,
+    AssignOp, Atom, Comparison, Condition, Domain, Effect, FunctionTerm, GroundAtom, Init, NumericExpr,
+    Problem, Term, TypedName,
 };
 
 /// Causes are followed so far.
@@ -87,14 +87,16 @@ impl<'a> Explainer<'a> {
                 return Some(format!("a {} for ?{}, and {object} is none", types.join(" or "), param.name));
             }
         }
-        let (mut atoms, mut numbers) = (Vec::new(), Vec::new());
-        necessary(maker.needs, &mut atoms, &mut numbers);
+        let Necessary { atoms, numbers, comparisons } = Necessary::of(maker.needs);
         for function in numbers {
             let term = substitute(&function.args, bound);
             if !self.has_value(&function.function, &term) {
                 let shown = FunctionTerm { function: function.function.clone(), args: term };
                 return Some(format!("{shown}, which has no value in `:init` and is never assigned one"));
             }
+        }
+        if let Some(stuck) = comparisons.into_iter().find_map(|compared| self.stuck(compared, bound)) {
+            return Some(stuck);
         }
         for atom in atoms {
             let needed = Atom { predicate: atom.predicate.clone(), args: substitute(&atom.args, bound) };
@@ -164,6 +166,77 @@ impl<'a> Explainer<'a> {
         })
     }
 
+    /// A comparison of one number with a constant that does not hold at first and that no action brings nearer.
+    fn stuck(
+        &self,
+        compared: (Comparison, &NumericExpr, &NumericExpr),
+        bound: &[(Name, Term)],
+    ) -> Option<String> {
+        let (op, of, constant) = match compared {
+            (op, NumericExpr::Function(of), NumericExpr::Number(constant)) => (op, of, constant),
+            (op, NumericExpr::Number(constant), NumericExpr::Function(of)) => (flipped(op), of, constant),
+            _ => return None,
+        };
+        let atom = Atom { predicate: of.function.clone(), args: substitute(&of.args, bound) };
+        let limit = constant.value();
+        let (sign, holds): (_, fn(f64, f64) -> bool) = match op {
+            Comparison::Less => ("<", |a, b| a < b),
+            Comparison::LessEqual => ("<=", |a, b| a <= b),
+            Comparison::Equal => ("=", |a, b| a == b),
+            Comparison::GreaterEqual => (">=", |a, b| a >= b),
+            Comparison::Greater => (">", |a, b| a > b),
+        };
+        let at_first = self.problem.init.iter().filter_map(|item| match item {
+            Init::Value(of, value) if matches_ground(&atom, of) => Some(value.value()),
+            _ => None,
+        });
+        let values: Vec<f64> = at_first.collect();
+        if values.is_empty() || values.iter().any(|&value| holds(value, limit) || !value.is_finite()) {
+            return None;
+        }
+        let rises = values.iter().any(|&value| value <= limit) && op != Comparison::Less;
+        let falls = values.iter().any(|&value| value >= limit) && op != Comparison::Greater;
+        if (rises && self.moves(&of.function, true)) || (falls && self.moves(&of.function, false)) {
+            return None;
+        }
+        let shown = FunctionTerm { function: of.function.clone(), args: atom.args };
+        let verb = if falls { "lowers" } else { "raises" };
+        let now = match values[..] {
+            [value] => format!("it is {value} at first and "),
+            _ => String::new(),
+        };
+        Some(format!("({sign} {shown} {limit}) ({now}no action {verb} it)"))
+    }
+
+    /// Whether some action may raise (or lower) the function.
+    fn moves(&self, function: &Name, up: bool) -> bool {
+        self.domain.actions.iter().any(|action| {
+            let mut open = vec![&action.effect];
+            while let Some(effect) = open.pop() {
+                match effect {
+                    Effect::And(parts) => open.extend(parts),
+                    Effect::Forall(_, inner) | Effect::When(_, inner) => open.push(inner),
+                    Effect::Assign(op, target, by) if target.function == *function => {
+                        let by = match by {
+                            NumericExpr::Number(by) => Some(by.value()),
+                            _ => None,
+                        };
+                        let may = match (op, by) {
+                            (AssignOp::Increase, Some(by)) => (by > 0.0) == up && by != 0.0,
+                            (AssignOp::Decrease, Some(by)) => (by < 0.0) == up && by != 0.0,
+                            _ => true,
+                        };
+                        if may {
+                            return true;
+                        }
+                    }
+                    _ => {}
+                }
+            }
+            false
+        })
+    }
+
     fn is_of(&self, object: &Name, types: &[Name]) -> bool {
         let declared =
             self.domain.constants.iter().chain(&self.problem.objects).filter(|o| o.name == *object);
@@ -181,27 +254,50 @@ impl<'a> Explainer<'a> {
     }
 }
 
-/// Atoms and functions that the condition cannot do without.
-fn necessary<'c>(condition: &'c Condition, atoms: &mut Vec<&'c Atom>, numbers: &mut Vec<&'c FunctionTerm>) {
-    let mut open = vec![condition];
-    while let Some(condition) = open.pop() {
-        match condition {
-            Condition::And(parts) => open.extend(parts.iter().rev()),
-            Condition::Or(parts) if parts.len() == 1 => open.extend(parts),
-            Condition::Exists(_, inner) => open.push(inner),
-            Condition::Atom(atom) => atoms.push(atom),
-            Condition::Compare(_, left, right) => {
-                let mut numeric = vec![left, right];
-                while let Some(part) = numeric.pop() {
-                    match part {
-                        NumericExpr::Number(_) => {}
-                        NumericExpr::Function(function) => numbers.push(function),
-                        NumericExpr::Operation(_, parts) => numeric.extend(parts),
+/// What a condition cannot do without.
+#[derive(Default)]
+struct Necessary<'c> {
+    atoms: Vec<&'c Atom>,
+    numbers: Vec<&'c FunctionTerm>,
+    comparisons: Vec<(Comparison, &'c NumericExpr, &'c NumericExpr)>,
+}
+
+impl<'c> Necessary<'c> {
+    fn of(condition: &'c Condition) -> Self {
+        let mut found = Necessary::default();
+        let mut open = vec![condition];
+        while let Some(condition) = open.pop() {
+            match condition {
+                Condition::And(parts) => open.extend(parts.iter().rev()),
+                Condition::Or(parts) if parts.len() == 1 => open.extend(parts),
+                Condition::Exists(_, inner) => open.push(inner),
+                Condition::Atom(atom) => found.atoms.push(atom),
+                Condition::Compare(op, left, right) => {
+                    found.comparisons.push((*op, left, right));
+                    let mut numeric = vec![left, right];
+                    while let Some(part) = numeric.pop() {
+                        match part {
+                            NumericExpr::Number(_) => {}
+                            NumericExpr::Function(function) => found.numbers.push(function),
+                            NumericExpr::Operation(_, parts) => numeric.extend(parts),
+                        }
                     }
                 }
+                _ => {}
             }
-            _ => {}
         }
+        found
+    }
+}
+
+/// The comparison seen from the other side.
+fn flipped(op: Comparison) -> Comparison {
+    match op {
+        Comparison::Less => Comparison::Greater,
+        Comparison::LessEqual => Comparison::GreaterEqual,
+        Comparison::Equal => Comparison::Equal,
+        Comparison::GreaterEqual => Comparison::LessEqual,
+        Comparison::Greater => Comparison::Less,
     }
 }
 
@@ -292,6 +388,12 @@ mod tests {
         assert_eq!(
             why(DOMAIN, &problem("(heats s)"), "(hot s)").as_deref(),
             Some("`heat` needs a cup for ?x, and s is none")
+        );
+        assert_eq!(
+            why(DOMAIN, &problem("(at c s) (heats s) (= (gas s) 0)"), "(hot c)").as_deref(),
+            Some(
+                "`heat` needs (on ?y) (`switch` needs (> (gas ?y) 0) (it is 0 at first and no action raises it))"
+            )
         );
         assert_eq!(why(DOMAIN, &problem("(at c s) (heats s) (= (gas s) 1)"), "(hot c)"), None, "it can be");
         assert_eq!(why(DOMAIN, &problem(""), "(wet c)").as_deref(), Some("the domain does not know it"));

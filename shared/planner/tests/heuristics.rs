@@ -13,7 +13,7 @@ use lamma_planner::{GroundLimits, OperatorId, State, Task, ground};
 struct Space {
     states: Vec<Vec<u64>>,
     distance: Vec<Option<u32>>,
-    transitions: Vec<(usize, usize)>,
+    transitions: Vec<(usize, OperatorId, usize)>,
 }
 
 fn explore(task: &Task) -> Space {
@@ -31,7 +31,7 @@ fn explore(task: &Task) -> Space {
                     states.push(next.clone());
                     states.len() - 1
                 });
-                transitions.push((at, id));
+                transitions.push((at, operator, id));
             }
         }
         at += 1;
@@ -39,7 +39,7 @@ fn explore(task: &Task) -> Space {
     let mut distance: Vec<Option<u32>> = states.iter().map(|s| task.is_goal(s).then_some(0)).collect();
     let mut queue: VecDeque<usize> = (0..states.len()).filter(|&s| distance[s].is_some()).collect();
     while let Some(state) = queue.pop_front() {
-        for &(from, _) in transitions.iter().filter(|&&(_, to)| to == state) {
+        for &(from, ..) in transitions.iter().filter(|&&(.., to)| to == state) {
             if distance[from].is_none() {
                 distance[from] = distance[state].map(|d| d + 1);
                 queue.push_back(from);
@@ -64,7 +64,7 @@ fn hold_to_promises(name: &str, seed: u64, heuristic: &mut dyn Heuristic, space:
             _ => {}
         }
     }
-    for &(from, to) in space.transitions.iter().filter(|_| promised.consistent) {
+    for &(from, _, to) in space.transitions.iter().filter(|_| promised.consistent) {
         if let (Estimate::Cost(before), Estimate::Cost(after)) = (estimates[from], estimates[to]) {
             assert!(before <= after + 1, "{name}, seed {seed}: falls from {before} to {after} in one step");
         }
@@ -74,6 +74,33 @@ fn hold_to_promises(name: &str, seed: u64, heuristic: &mut dyn Heuristic, space:
 #[test]
 fn heuristics_keep_their_promises() {
     hold_all(0..2500, random::task);
+}
+
+#[test]
+fn landmark_cuts_that_a_state_inherits_keep_the_estimate_admissible() {
+    let mut inherited = 0;
+    for seed in 0..2500 {
+        let (domain, problem) = random::task(seed);
+        let task = ground(&domain, &problem, &GroundLimits::default()).expect("random tasks are well formed");
+        let space = if task.impossible.is_empty() { explore(&task) } else { continue };
+        if space.states.len() > 300 {
+            continue;
+        }
+        let mut heuristic = LandmarkCut::new(&task, Costs::Unit);
+        for &(from, operator, to) in &space.transitions {
+            heuristic.estimate(&space.states[from], &mut Vec::new());
+            let findings = heuristic.findings().to_vec();
+            let state = &space.states[to];
+            match (heuristic.estimate_after(state, &findings, operator, &mut Vec::new()), space.distance[to])
+            {
+                (Estimate::Cost(h), Some(d)) => assert!(h <= d, "seed {seed}: {h} estimated, {d} away"),
+                (Estimate::DeadEnd, Some(d)) => panic!("seed {seed}: called a dead end, but {d} away"),
+                _ => {}
+            }
+            inherited += usize::from(!findings.is_empty());
+        }
+    }
+    assert!(inherited > 1000, "{inherited} states that inherit cuts are too few to mean anything");
 }
 
 #[test]

@@ -5,7 +5,9 @@ mod support;
 
 use std::sync::atomic::AtomicBool;
 
-use lamma_planner::{GroundLimits, Limits, Outcome, SearchOptions, Unsolvable, ground, solve};
+use lamma_planner::{
+    GroundLimits, Limits, Outcome, SearchOptions, Unsolvable, ground, never_together, solve,
+};
 use support::{Executor, parse};
 
 const DOMAIN: &str = "
@@ -130,6 +132,48 @@ fn the_unreachable_part_of_the_goal_is_named() {
 
 #[test]
 fn an_exhausted_search_is_a_proof() {
-    let outcome = solve_goal("(and (holding robot1 Apple_1) (holding robot1 Apple_2))");
-    assert_eq!(outcome, Outcome::Unsolvable(Unsolvable::Exhausted));
+    let goal = "(and (holding robot1 Apple_1) (on Microwave_1) (holding robot1 Apple_2))";
+    assert_eq!(solve_goal(goal), Outcome::Unsolvable(Unsolvable::Exhausted));
+    let (domain, problem) = parse(DOMAIN, &problem(goal));
+    let task = ground(&domain, &problem, &GroundLimits::default()).expect("the task is well formed");
+    let apart = never_together(&task, 1_000_000).expect("not so many states");
+    assert_eq!(
+        apart,
+        ["(holding robot1 Apple_1)", "(holding robot1 Apple_2)"],
+        "the microwave is in nobody's way"
+    );
+    assert_eq!(never_together(&task, 10), None, "more states than it may look at");
+}
+
+#[test]
+fn what_only_keeps_an_effect_from_happening_is_needed() {
+    let domain = "(define (domain d) (:predicates (c) (l) (g))
+        (:action quiet :effect (not (c)))
+        (:action go :effect (and (g) (when (c) (not (l))))))";
+    let (domain, problem) =
+        parse(domain, "(define (problem p) (:domain d) (:init (c) (l)) (:goal (and (g) (l))))");
+    let task = ground(&domain, &problem, &GroundLimits::default()).expect("the task is well formed");
+    let outcome = solve(&task, &SearchOptions::default(), &Limits::default(), &AtomicBool::new(false));
+    assert!(matches!(&outcome, Outcome::Found(plan) if plan.acts.len() == 2), "{outcome:?}");
+}
+
+#[test]
+fn things_that_cannot_matter_are_not_grounded() {
+    let operators = |others: usize| {
+        let names: String = (0..others).map(|n| format!("other{n} ")).collect();
+        let places: String = (0..others).map(|n| format!("(in other{n} counter) ")).collect();
+        let problem = format!(
+            "(define (problem p) (:domain kitchen)
+               (:objects r - robot counter fridge stove - place apple knife {names} - item)
+               (:init (at r counter) (in apple counter) (in knife fridge) (closable fridge) (knife knife)
+                 (switchable stove) {places})
+               (:goal (and (in apple fridge) (sliced apple) (on stove))))"
+        );
+        let (domain, problem) = parse(include_str!("../../../tests/planner/kitchen.pddl"), &problem);
+        let task = ground(&domain, &problem, &GroundLimits::default()).expect("the task is well formed");
+        let outcome = solve(&task, &SearchOptions::default(), &Limits::default(), &AtomicBool::new(false));
+        assert!(matches!(outcome, Outcome::Found(_)), "{outcome:?}");
+        task.operators.len()
+    };
+    assert_eq!(operators(40), operators(0));
 }

@@ -14,7 +14,7 @@ use lamma_planner::{
     Engine, GroundLimits, Limits, Outcome, SearchOptions, Unsolvable, Verdict, ground, hmax_unit, solve,
     validate,
 };
-use random::{numeric_task, task};
+use random::{narrow_task, numeric_task, task};
 use support::{Executor, World};
 
 /// The length of a shortest plan, by breadth-first search over everything.
@@ -67,6 +67,11 @@ fn plans_exist_exactly_where_exhaustive_search_finds_them() {
 #[test]
 fn with_numbers_too_plans_exist_exactly_where_exhaustive_search_finds_them() {
     compare(0..2500, numeric_task);
+}
+
+#[test]
+fn where_every_effect_counts_none_is_forgotten() {
+    compare(0..3000, narrow_task);
 }
 
 fn compare(seeds: std::ops::Range<u64>, make: fn(u64) -> (Domain, Problem)) {

@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 
 use lamma_pddl::parse_ground_atom;
 use lamma_planner::{
-    Engine, GroundError, GroundLimits, Limits, Outcome, Plan, SearchOptions, Unsolvable, explain_unreachable,
-    ground, solve, solve_anytime, write_sas,
+    Engine, GroundError, GroundLimits, Limits, Outcome, Plan, SearchOptions, Task, Unsolvable,
+    explain_unreachable, ground, never_together, solve, solve_anytime, write_sas,
 };
 
 use self::answer::Answer;
@@ -22,6 +22,9 @@ use crate::out::say;
 
 /// The part of the time limit that the work gets: ending takes time, too.
 const PUNCTUALITY: f64 = 0.985;
+
+/// The reachable states that may be looked at to say which goals exclude each other: some tenths of a second.
+const STATES_TO_EXPLAIN: usize = 200_000;
 
 /// How to search.
 #[derive(Clone, Copy)]
@@ -130,14 +133,20 @@ fn search_and_tell(
     let mut answer = told();
     Ok(match outcome {
         Outcome::Found(_) => answer.done(optimal && grounded.warnings.is_empty()),
-        Outcome::Unsolvable(reason) => answer.unsolvable(&because(&task, &reason)),
+        Outcome::Unsolvable(reason) => answer.unsolvable(&because(&task, &grounded, &reason)),
         Outcome::GaveUp(limit) => answer.gave_up(&limit.to_string()),
     })
 }
 
-/// The reason with the cause of each part, where there is a single one.
-fn because(task: &PddlTask, reason: &Unsolvable) -> String {
-    let Unsolvable::Unreachable(facts) = reason else { return reason.to_string() };
+/// The reason with the cause of each part, where there is a single one, or with the parts that exclude each other.
+fn because(task: &PddlTask, grounded: &Task, reason: &Unsolvable) -> String {
+    let Unsolvable::Unreachable(facts) = reason else {
+        let apart = never_together(grounded, STATES_TO_EXPLAIN).map(|parts| match &parts[..] {
+            [alone] => format!("\n  this part of it never holds: {alone}"),
+            parts => format!("\n  these parts of it never hold together: {}", parts.join(", ")),
+        });
+        return format!("{reason}{}", apart.unwrap_or_default());
+    };
     let causes = facts.iter().filter_map(|fact| {
         let atom = parse_ground_atom(fact).ok()?;
         let cause = explain_unreachable(&task.domain, &task.problem, &atom)?;

@@ -156,7 +156,7 @@ impl Bridge {
                 self.heed(&content);
             }
             let mut news = Vec::new();
-            bus.receive(&mut |received| news.extend(self.from_here(node, received)));
+            bus.receive(&mut |received| news.extend(self.heard_here(node, received)));
             if news.is_empty() {
                 bus.wait(Some(PULSE)).map_err(|e| e.to_string())?;
             } else {
@@ -179,7 +179,7 @@ impl Bridge {
     }
 
     /// What `node` has heard, if it was said on this host and `node` is the first for whom it is to be carried.
-    fn from_here(&self, node: Node, received: Received<'_>) -> Option<(Topic, Content)> {
+    fn heard_here(&self, node: Node, received: Received<'_>) -> Option<(Topic, Content)> {
         let (topic, content) = match received {
             Received::Message(topic, envelope) => (topic, Content::Bytes(codec::encode(&envelope).ok()?)),
             Received::Frame(frame) => (Topic::Frame, Content::Words(frame.words().to_vec())),

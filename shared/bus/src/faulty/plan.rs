@@ -64,7 +64,7 @@ impl FromStr for Plan {
                 "reorder" => plan.reorder = share()?,
                 "corrupt" => plan.corrupt = share()?,
                 "delay" => plan.delay = duration(value).ok_or_else(|| fail("no time"))?,
-                "partition" => plan.partitions.push(partition(value).map_err(|reason| fail(reason))?),
+                "partition" => plan.partitions.push(partition(value).map_err(&fail)?),
                 _ => return Err(fail("no such fault")),
             }
         }

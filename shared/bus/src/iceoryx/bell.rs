@@ -44,8 +44,18 @@ const LONGEST_SLEEP: Duration = Duration::from_secs(1);
 /// The page, mapped into this process.
 pub(super) struct Bells {
     base: NonNull<AtomicU64>,
+    plan: Plan,
+}
+
+/// Where the slots are, in words, and how many words of bits they have.
+#[derive(Clone, Copy, Debug)]
+struct Plan {
+    /// Of the supervisor, the coordinator and the simulator.
+    hubs: [(usize, usize); 3],
+    /// Of the first seat, and bits of each; all seats are alike.
+    seats: (usize, usize),
+    /// Of the page.
     words: usize,
-    layout: Layout,
 }
 
 // SAFETY: the mapping holds nothing but atomics, and lives until the value is dropped.
@@ -73,26 +83,25 @@ impl Bells {
     /// Makes the page of a run, before anybody joins it. All zeros: nobody has rung, nobody sleeps.
     pub(super) fn create(scope: &Scope) -> io::Result<()> {
         let file = OpenOptions::new().write(true).create_new(true).mode(0o600).open(scope.bells())?;
-        file.set_len((size(scope.layout()) * size_of::<u64>()) as u64)
+        file.set_len(Plan::new(scope.layout()).bytes() as u64)
     }
 
     /// The page of a run that lives.
     pub(super) fn open(scope: &Scope) -> io::Result<Bells> {
         let file = OpenOptions::new().read(true).write(true).open(scope.bells())?;
-        let layout = scope.layout();
-        if file.metadata()?.len() < (size(layout) * size_of::<u64>()) as u64 {
+        let plan = Plan::new(scope.layout());
+        if file.metadata()?.len() < plan.bytes() as u64 {
             return Err(io::Error::new(io::ErrorKind::InvalidData, "the bells of another run"));
         }
-        Bells::map(&file, layout)
+        Bells::map(&file, plan)
     }
 
-    fn map(file: &File, layout: Layout) -> io::Result<Bells> {
-        let words = size(layout);
+    fn map(file: &File, plan: Plan) -> io::Result<Bells> {
         // SAFETY: a new mapping where the kernel likes; the file is at least as long, and nobody shortens it.
         let base = unsafe {
             libc::mmap(
                 std::ptr::null_mut(),
-                words * size_of::<u64>(),
+                plan.bytes(),
                 libc::PROT_READ | libc::PROT_WRITE,
                 libc::MAP_SHARED,
                 file.as_raw_fd(),
@@ -103,13 +112,12 @@ impl Bells {
             return Err(io::Error::last_os_error());
         }
         let base = NonNull::new(base.cast()).ok_or(io::ErrorKind::OutOfMemory)?;
-        Ok(Bells { base, words, layout })
+        Ok(Bells { base, plan })
     }
 
     fn slot(&self, party: Party) -> Slot<'_> {
-        let start = start(self.layout, party);
-        let bits = bits(self.layout, party);
-        assert!(start + HEAD + bits <= self.words, "{party} has a slot");
+        let (start, bits) = self.plan.slot(party);
+        assert!(start + HEAD + bits <= self.plan.words, "{party} has a slot");
         // SAFETY: within the mapping, as was just checked, and aligned: a mapping begins at a page. The first word is
         // only ever looked at as 32 bits, the others as 64.
         unsafe {
@@ -152,7 +160,7 @@ impl Bells {
 impl Drop for Bells {
     fn drop(&mut self) {
         // SAFETY: what was mapped, which nothing refers to any more.
-        unsafe { libc::munmap(self.base.as_ptr().cast(), self.words * size_of::<u64>()) };
+        unsafe { libc::munmap(self.base.as_ptr().cast(), self.plan.bytes()) };
     }
 }
 
@@ -178,10 +186,16 @@ impl Slot<'_> {
 pub(super) struct Bell {
     bells: Arc<Bells>,
     party: Party,
+    /// The event by which this process's own threads wake it: the one after all others.
+    own: usize,
 }
 
 /// What this process's own threads ring.
-struct Own(Arc<Bells>, Party);
+struct Own {
+    bells: Arc<Bells>,
+    party: Party,
+    event: usize,
+}
 
 impl Wake for Own {
     fn wake(self: Arc<Self>) {
@@ -189,21 +203,22 @@ impl Wake for Own {
     }
 
     fn wake_by_ref(self: &Arc<Self>) {
-        self.0.ring(self.1, own(self.0.layout, self.1));
+        self.bells.ring(self.party, self.event);
     }
 }
 
 impl Bell {
-    pub(super) fn new(bells: Arc<Bells>, party: Party) -> Bell {
+    pub(super) fn new(bells: Arc<Bells>, layout: Layout, party: Party) -> Bell {
         // One that was killed may have slept here.
         let slot = bells.slot(party);
         slot.awaits.store(encode(Awaits::AnyFrame), Ordering::SeqCst);
         slot.state.store(AWAKE, Ordering::SeqCst);
-        Bell { bells, party }
+        Bell { bells, party, own: layout.events(party) }
     }
 
     pub(super) fn waker(&self) -> Waker {
-        Waker::from(Arc::new(Own(Arc::clone(&self.bells), self.party)))
+        let (bells, party, event) = (Arc::clone(&self.bells), self.party, self.own);
+        Waker::from(Arc::new(Own { bells, party, event }))
     }
 
     /// Which frames end the waits from now on.
@@ -241,7 +256,6 @@ impl Bell {
 
     /// Takes the events that were rung so far; this process's own is none.
     pub(super) fn hear(&self, mut rung: impl FnMut(usize)) {
-        let own = own(self.bells.layout, self.party);
         for (at, word) in self.bells.slot(self.party).rung.iter().enumerate() {
             // A look costs less than taking what is not there.
             if word.load(Ordering::Relaxed) == 0 {
@@ -251,7 +265,7 @@ impl Bell {
             while left != 0 {
                 let event = at * 64 + left.trailing_zeros() as usize;
                 left &= left - 1;
-                if event != own {
+                if event != self.own {
                     rung(event);
                 }
             }
@@ -259,40 +273,42 @@ impl Bell {
     }
 }
 
-/// The event by which a process's own threads wake it: the one after all others.
-fn own(layout: Layout, party: Party) -> usize {
-    layout.events(party)
-}
-
-/// Words of bits in the slot of a party.
-fn bits(layout: Layout, party: Party) -> usize {
-    (own(layout, party) + 1).div_ceil(64)
-}
-
-/// Words of a slot.
-fn stride(layout: Layout, party: Party) -> usize {
-    (HEAD + bits(layout, party)).next_multiple_of(LINE)
-}
-
-/// Where the slot of a party begins.
-fn start(layout: Layout, party: Party) -> usize {
-    let before: &[Party] = match party {
-        Party::Supervisor => &[],
-        Party::Coordinator => &[Party::Supervisor],
-        Party::Simulator => &[Party::Supervisor, Party::Coordinator],
-        Party::Seat(_) => &[Party::Supervisor, Party::Coordinator, Party::Simulator],
-    };
-    let before: usize = before.iter().map(|p| stride(layout, *p)).sum();
-    match party {
-        // All seats are alike.
-        Party::Seat(seat) => before + usize::from(seat) * stride(layout, party),
-        _ => before,
+impl Plan {
+    fn new(layout: Layout) -> Plan {
+        // Of all events, and of the one for this process's own threads.
+        let bits = |party| (layout.events(party) + 1).div_ceil(64);
+        let mut words = 0;
+        let mut next = |bits: usize, slots: usize| {
+            let start = words;
+            words += slots * Plan::stride(bits);
+            (start, bits)
+        };
+        let hubs = [Party::Supervisor, Party::Coordinator, Party::Simulator].map(|p| next(bits(p), 1));
+        let seats = next(bits(Party::Seat(0)), layout.seats().into());
+        Plan { hubs, seats, words }
     }
-}
 
-/// Words of the page.
-fn size(layout: Layout) -> usize {
-    start(layout, Party::Seat(layout.seats()))
+    /// Words of a slot with so many of bits.
+    fn stride(bits: usize) -> usize {
+        (HEAD + bits).next_multiple_of(LINE)
+    }
+
+    /// Where the slot of a party begins, and how many words of bits it has.
+    fn slot(&self, party: Party) -> (usize, usize) {
+        match party {
+            Party::Supervisor => self.hubs[0],
+            Party::Coordinator => self.hubs[1],
+            Party::Simulator => self.hubs[2],
+            Party::Seat(seat) => {
+                let (start, bits) = self.seats;
+                (start + usize::from(seat) * Plan::stride(bits), bits)
+            }
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        self.words * size_of::<u64>()
+    }
 }
 
 /// Bits 0 to 31: how many steps; 32 to 47: of whom; 48 and 49: which kind.
@@ -335,12 +351,14 @@ mod tests {
     fn slots_do_not_overlap() {
         for (agents, per_seat) in [(0, 1), (1, 1), (64, 1), (1000, 1), (10_000, 2500)] {
             let layout = Layout { agents, per_seat };
-            let mut end = 0;
+            let (plan, mut end) = (Plan::new(layout), 0);
             for party in layout.parties() {
-                assert!(start(layout, party) >= end, "{party} of {layout:?}");
-                end = start(layout, party) + HEAD + bits(layout, party);
+                let (start, bits) = plan.slot(party);
+                assert!(start >= end, "{party} of {layout:?}");
+                assert!(64 * bits > layout.events(party), "{party} of {layout:?}");
+                end = start + HEAD + bits;
             }
-            assert!(end <= size(layout), "{layout:?}");
+            assert!(end <= plan.words, "{layout:?}");
         }
     }
 

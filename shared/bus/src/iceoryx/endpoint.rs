@@ -43,7 +43,7 @@ impl Endpoint {
         }
         let handle = Handle::new(scope, party)?;
         let bells = Arc::new(Bells::open(scope).map_err(|e| handle.error("the bells", e))?);
-        let bell = Bell::new(Arc::clone(&bells), party);
+        let bell = Bell::new(Arc::clone(&bells), layout, party);
         let readers = layout.read_by(party).into_iter().map(|l| Reader::open(&handle, layout, l));
         let readers = readers.collect::<Result<_, _>>()?;
         let writers = layout.published_by(party).into_iter();

@@ -245,12 +245,7 @@ impl Layout {
 
     /// The event on the bell of `owner` that says that `peer` has joined. None if they are no peers.
     pub(super) fn joined(self, owner: Party, peer: Party) -> Option<usize> {
-        let lines = match owner {
-            Party::Supervisor => 1,
-            Party::Coordinator => 3 + usize::from(self.shards()),
-            Party::Simulator => 2 + usize::from(self.shards()),
-            Party::Seat(_) => 3,
-        };
+        let lines = self.lines_read_by(owner);
         let place = match (owner, peer) {
             (Party::Seat(_), Party::Seat(_)) => return None,
             (_, Party::Seat(s)) => 3 + usize::from(s),
@@ -261,9 +256,19 @@ impl Layout {
         (owner != peer).then_some(lines + place)
     }
 
+    /// How many services `owner` reads.
+    fn lines_read_by(self, owner: Party) -> usize {
+        match owner {
+            Party::Supervisor => 1,
+            Party::Coordinator => 3 + usize::from(self.shards()),
+            Party::Simulator => 2 + usize::from(self.shards()),
+            Party::Seat(_) => 3,
+        }
+    }
+
     /// How many events the bell of `owner` has.
     pub(super) fn events(self, owner: Party) -> usize {
-        self.read_by(owner).len() + 3 + if matches!(owner, Party::Seat(_)) { 0 } else { self.seats().into() }
+        self.lines_read_by(owner) + 3 + if matches!(owner, Party::Seat(_)) { 0 } else { self.seats().into() }
     }
 
     /// Whom `party` exchanges something with, in a fixed order.
@@ -307,6 +312,7 @@ mod tests {
                 assert_eq!(readers.collect::<Vec<_>>(), layout.readers(line), "{line} of {layout:?}");
             }
             for party in layout.parties() {
+                assert_eq!(layout.lines_read_by(party), layout.read_by(party).len(), "{party} of {layout:?}");
                 let news = layout.read_by(party).into_iter().map(|l| layout.news(party, l));
                 let joined = layout.peers(party).into_iter().map(|p| layout.joined(party, p));
                 let events: Vec<usize> = news.chain(joined).map(|e| e.expect("an event")).collect();

@@ -80,11 +80,10 @@ impl Endpoint {
         let live = keys.live(node, opened);
         let token = session.liveliness().declare_token(live.clone()).wait();
         let token = token.map_err(|e| refused(node, live, &e))?;
-        if !sync(&session, &keys, node, PATIENCE) {
-            return Err(match &join.identity {
-                Some(identity) => OpenError::NotItself { node, name: identity.name.clone() },
-                None => fail("the router does not answer".into()),
-            });
+        match (sync(&session, &keys, node, PATIENCE), &join.identity) {
+            (Heard::Answered, _) | (Heard::Ended, None) => {}
+            (_, Some(identity)) => return Err(OpenError::NotItself { node, name: identity.name.clone() }),
+            (Heard::Nothing, None) => return Err(fail("the router does not answer".into())),
         }
         Ok(Endpoint {
             node,
@@ -194,21 +193,31 @@ fn meet(own: Node, keys: Keys, mailbox: Arc<Mailbox>) -> impl Fn(Sample) + Send 
     }
 }
 
-/// Waits until the router has seen all that this session sent before. False if it does not say so in time: it is
-/// gone, or its rules do not let this session ask as `node`.
-fn sync(session: &Session, keys: &Keys, node: Node, patience: Duration) -> bool {
+/// What came of asking the router whether it has seen all that this session sent before.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Heard {
+    /// It has, and takes this session for who it says it is.
+    Answered,
+    /// The question has ended without an answer: the router is one that gives none, or its rules have dropped it.
+    Ended,
+    /// Nothing came in time.
+    Nothing,
+}
+
+/// Waits until the router has seen all that this session sent before.
+fn sync(session: &Session, keys: &Keys, node: Node, patience: Duration) -> Heard {
     let (tell, told) = std::sync::mpsc::channel::<bool>();
-    // The query ends when its callback, which holds the sender, is dropped: answered by nobody, that is at once. When
-    // its time is over it is answered by an error.
+    // The query ends when its callback, which holds the sender, is dropped. When its time is over it is answered by
+    // an error.
     let ask = session.get(keys.sync(node)).timeout(patience);
     let asked = ask.congestion_control(CongestionControl::Block).callback(move |reply| {
         let _ = tell.send(reply.result().is_ok());
     });
-    asked.wait().is_ok()
-        && matches!(
-            told.recv_timeout(patience),
-            Ok(true) | Err(std::sync::mpsc::RecvTimeoutError::Disconnected)
-        )
+    match asked.wait().map(|()| told.recv_timeout(patience)) {
+        Ok(Ok(true)) => Heard::Answered,
+        Ok(Err(std::sync::mpsc::RecvTimeoutError::Disconnected)) => Heard::Ended,
+        Ok(Ok(false) | Err(std::sync::mpsc::RecvTimeoutError::Timeout)) | Err(_) => Heard::Nothing,
+    }
 }
 
 impl Bus for Endpoint {
@@ -304,7 +313,7 @@ fn rank(topic: Topic) -> (u32, u8) {
 impl Drop for Endpoint {
     fn drop(&mut self) {
         // Last words are heard: what was sent reaches the router before the session ends.
-        sync(&self.session, &self.keys, self.node, LAST_PATIENCE);
+        let _ = sync(&self.session, &self.keys, self.node, LAST_PATIENCE);
         if let Err(error) = self.session.close().wait() {
             tracing::debug!("{} leaves without a word: {error}", self.node);
         }

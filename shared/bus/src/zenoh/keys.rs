@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `lamma/<run>/<topic>` | the topic's newest statement; topics as [`Topic`] prints them |
 //! | `lamma/<run>/live/<node>/<session>` | a liveliness token: this node is there and hears |
-//! | `lamma/<run>/sync/<node>` | asked by a node to learn that all it sent before has arrived; nobody answers |
+//! | `lamma/<run>/sync/<node>` | asked by a node to learn that all it sent before has arrived; the router answers |
 //!
 //! Every publication has an attachment of 16 bytes, a [`Stamp`].
 
@@ -124,6 +124,11 @@ impl Keys {
     /// What `node` asks to learn that what it sent before has arrived.
     pub fn sync(&self, node: Node) -> String {
         format!("{}sync/{node}", self.prefix)
+    }
+
+    /// What any node asks.
+    pub fn sync_of_any(&self) -> String {
+        self.key("sync/*")
     }
 }
 

@@ -2,14 +2,18 @@
 
 use std::path::Path;
 
+use zenoh::query::{Query, Queryable};
 use zenoh::{Session, Wait};
 
+use super::keys::Keys;
 use super::{Identity, OpenError, config};
 use crate::iceoryx::{Claim, Scope, sweep};
 
 /// A router. It relays for as long as it lives.
 pub struct Router {
     session: Session,
+    /// Answers who asks whether it was heard.
+    _answers: Queryable<()>,
     endpoints: Vec<String>,
     /// The folder of the socket, for one of its own.
     claim: Option<Claim>,
@@ -36,8 +40,14 @@ impl Router {
     ) -> Result<Router, OpenError> {
         let config = config::router(listen, connect, identity, rules)?;
         let fail = |e: zenoh::Error| OpenError::Listen { at: listen.join(", "), reason: e.to_string() };
-        let session = zenoh::open(config).wait().map_err(fail)?;
-        Ok(Router { session, endpoints: listen.to_vec(), claim: None })
+        let session = zenoh::open(config).wait().map_err(&fail)?;
+        let answer = |query: Query| {
+            // Who has gone meanwhile does not hear it.
+            let _ = query.reply(query.key_expr(), "").wait();
+        };
+        let answers = session.declare_queryable(Keys::of_any_run().sync_of_any()).callback(answer).wait();
+        let _answers = answers.map_err(fail)?;
+        Ok(Router { session, _answers, endpoints: listen.to_vec(), claim: None })
     }
 
     /// Where to join it: as it was told, with the port the system gave where it was told port 0.

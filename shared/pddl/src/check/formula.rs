@@ -172,14 +172,16 @@ impl<'d> Checker<'d> {
         let found = declared.get(name).copied();
         if found.is_none() {
             let other = if kind == Use::Predicate { &self.functions } else { &self.predicates };
-            let otherwise = match other.contains_key(name) {
+            let help = match other.contains_key(name) {
                 true if kind == Use::Predicate => {
                     format!("`{name}` is a function: compare it, `(> ({name} ...) 0)`")
                 }
                 true => format!("`{name}` is a predicate, which has no value"),
-                false => format!("declare it in the domain's ({section} ...)"),
+                false => {
+                    let otherwise = format!("declare it in the domain's ({section} ...)");
+                    self.suggest(name, declared.keys().copied(), otherwise)
+                }
             };
-            let help = self.suggest(name, declared.keys().copied(), otherwise);
             if self.first_report(code, name) {
                 let message = format!("unknown {what} `{name}`");
                 self.report.push(Diagnostic::error(code, name.span(), message).help(help));

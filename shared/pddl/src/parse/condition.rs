@@ -21,6 +21,14 @@ const TRAJECTORY: &[&str] = &[
     "hold-after",
 ];
 
+/// Words of effects, and what to write in a condition instead. Like the above, before a list only.
+const EFFECTS: &[(&str, &str)] = &[
+    ("when", "`(imply A B)` is the condition \"B if A\""),
+    ("increase", "compare numbers: `(>= (fuel ?t) 1)`"),
+    ("decrease", "compare numbers: `(>= (fuel ?t) 1)`"),
+    ("assign", "compare numbers: `(= (fuel ?t) 1)`"),
+];
+
 impl Parser {
     pub(super) fn condition(&mut self, sexpr: &Sexpr<'_>) -> Option<Condition> {
         let Some(list) = sexpr.as_list() else {
@@ -65,6 +73,10 @@ impl Parser {
         if has_list && TRAJECTORY.iter().any(|word| head.is(word)) {
             let what = format!("`{}` (PDDL 3)", head.text);
             self.unsupported(head.span, &what, "state what shall hold at the end in `:goal`");
+            return None;
+        }
+        if has_list && let Some((word, help)) = EFFECTS.iter().find(|(word, _)| head.is(word)) {
+            self.expected(head.span, &format!("a condition, not the effect `{word}`"), help);
             return None;
         }
         self.atom(list).map(Condition::Atom)

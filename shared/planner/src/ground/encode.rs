@@ -360,6 +360,11 @@ impl Encoder<'_> {
 
     fn delete(&self, atom: usize, condition: &[FactId], precondition: &[FactId], effects: &mut Effects) {
         let place = self.atoms[atom];
+        // Where a group's variable gets a value in any case, it does not become "none".
+        let settled = place.group.is_some_and(|value| {
+            let (variable, none) = (self.variable(value), self.none_of(value));
+            effects.plain.iter().any(|&fact| fact != none && self.variable(fact) == variable)
+        });
         let mut happens = |condition: Vec<FactId>, fact: FactId| {
             if condition.is_empty() {
                 effects.plain.push(fact);
@@ -370,11 +375,10 @@ impl Encoder<'_> {
         if let Some(own) = place.own {
             happens(condition.to_vec(), own);
         }
-        let Some(value) = place.group else { return };
-        let variable = self.variable(value);
+        let Some(value) = place.group.filter(|_| !settled) else { return };
+        let (variable, none) = (self.variable(value), self.none_of(value));
         let same = |fact: &&FactId| self.variable(**fact) == variable;
         let known = condition.iter().find(same).or_else(|| precondition.iter().find(same));
-        let none = self.none_of(value);
         match known {
             Some(&known) if known != value => return,
             Some(_) => happens(condition.to_vec(), none),
@@ -385,7 +389,6 @@ impl Encoder<'_> {
                 happens(condition, none);
             }
         }
-        effects.settle_group(self, variable, none);
     }
 
     fn writes(&self, plain: &[FactId]) -> Vec<Write> {
@@ -435,16 +438,6 @@ impl Encoder<'_> {
 struct Effects {
     plain: Vec<FactId>,
     conditional: Vec<(Vec<FactId>, FactId)>,
-}
-
-impl Effects {
-    /// If the operator gives the group's variable a value in any case, it does not become "none".
-    fn settle_group(&mut self, encoder: &Encoder<'_>, variable: u32, none: FactId) {
-        if self.plain.iter().any(|&fact| fact != none && encoder.variable(fact) == variable) {
-            self.plain.retain(|&fact| fact != none);
-            self.conditional.retain(|&(_, fact)| fact != none);
-        }
-    }
 }
 
 /// Packs variables into words; none crosses a word.

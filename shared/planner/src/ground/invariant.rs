@@ -3,7 +3,8 @@
 //! Candidates are lifted as in Helmert 2009 ("Concise finite-domain representations for PDDL planning
 //! tasks", section 5): predicates that share key arguments, each with at most one counted argument. Unlike
 //! there, a candidate is checked on the ground operators: every operator that adds an atom of a group
-//! deletes another one of it that it asked for. One that fails is refined by what the operator deletes.
+//! deletes another one of it that it asked for, or all others. One that fails is refined by what the operator
+//! deletes.
 
 use std::collections::{BTreeSet, BinaryHeap, VecDeque};
 
@@ -49,7 +50,7 @@ pub(crate) fn mutex_groups(
         let sampled = samples.iter().map(|&at| &ground.operators[at as usize]);
         let wrong = sampled.chain(&ground.operators).find(|operator| !instances.balanced(ground, operator));
         match wrong {
-            None => groups.extend(instances.groups(ground)),
+            None => groups.extend(instances.groups(ground, limits)?),
             Some(operator) => {
                 for refined in atoms.refine(&candidate, &instances, operator) {
                     if seen.insert(refined.clone()) {
@@ -102,6 +103,8 @@ struct Instances {
     key_of: Vec<u32>,
     /// How many atoms of each key hold at first.
     weight: Vec<u32>,
+    /// How many atoms each key has.
+    size: Vec<u32>,
 }
 
 impl Atoms<'_> {
@@ -131,7 +134,8 @@ impl Atoms<'_> {
     }
 
     fn instances(&self, candidate: &Candidate) -> Instances {
-        let mut instances = Instances { key_of: vec![NONE; self.ground.names.len()], weight: Vec::new() };
+        let mut instances =
+            Instances { key_of: vec![NONE; self.ground.names.len()], weight: Vec::new(), size: Vec::new() };
         let (mut keys, mut table, mut key) = (Vec::<Vec<u32>>::new(), IdTable::default(), Vec::new());
         for atom in 0..self.ground.names.len() {
             let Some(name) = self.usable(atom) else { continue };
@@ -146,12 +150,14 @@ impl Atoms<'_> {
                     let id = keys.len() as u32;
                     keys.push(key.clone());
                     instances.weight.push(0);
+                    instances.size.push(0);
                     table.insert(at, hash, id, |id| hash_words(&keys[id as usize]));
                     id
                 }
             };
             instances.key_of[atom] = id;
             instances.weight[id as usize] += u32::from(self.ground.init[atom]);
+            instances.size[id as usize] += 1;
         }
         instances
     }
@@ -213,15 +219,26 @@ impl Instances {
         self.unbalanced_add(ground, operator).is_none()
     }
 
-    /// An atom that the operator adds without deleting another of its group that held before. A group that
-    /// more than one atom of holds at first is not looked at: it is no mutex group anyway.
+    /// An atom that the operator adds to a group of which one holds at first, and that is then perhaps the second.
+    /// A group that more than one atom of holds at first is not looked at: it is no mutex group anyway.
     fn unbalanced_add(&self, ground: &Ground, operator: &GroundOperator) -> Option<usize> {
+        self.unbalanced(ground, operator, &|key| self.weight[key as usize] == 1)
+    }
+
+    /// An atom of a watched group that the operator adds without deleting another of it that held before, or all
+    /// others.
+    fn unbalanced(
+        &self,
+        ground: &Ground,
+        operator: &GroundOperator,
+        watched: &dyn Fn(u32) -> bool,
+    ) -> Option<usize> {
         let effects = ground.lits(operator.effects);
         let conditional = &ground.conditional[operator.conditional.range()];
         let precondition = ground.lits(operator.precondition);
         let watched = |lit: Lit| {
             let key = self.key_of[lit.atom()];
-            lit.holds() && key != NONE && self.weight[key as usize] == 1
+            lit.holds() && key != NONE && watched(key)
         };
         let adds =
             || effects.iter().map(|&lit| (lit, None)).chain(conditional.iter().map(|e| (e.effect, Some(e))));
@@ -243,23 +260,40 @@ impl Instances {
                             && ground.lits(other.condition).iter().all(|c| held().any(|h| h == c))
                     })
             };
-            if !held().any(|lit| lit.holds() && self.key_of[lit.atom()] == key && deleted(lit)) {
+            if held().any(|lit| lit.holds() && self.key_of[lit.atom()] == key && deleted(lit)) {
+                continue;
+            }
+            let others = effects.iter().filter(|lit| !lit.holds() && self.key_of[lit.atom()] == key);
+            if others.filter(|lit| lit.atom() != add.atom()).count() as u32 + 1 < self.size[key as usize] {
                 return Some(add.atom());
             }
         }
         None
     }
 
-    /// The groups of which exactly one atom holds at first.
-    fn groups(&self, ground: &Ground) -> Vec<Vec<u32>> {
+    /// The groups of which at most one atom holds at first, and then ever.
+    fn groups(&self, ground: &Ground, limits: &GroundLimits<'_>) -> Result<Vec<Vec<u32>>, GroundError> {
+        let mut holds = self.weight.iter().map(|&weight| weight == 1).collect::<Vec<_>>();
+        // Where none holds at first, each group is looked at alone: there are no better candidates to wait for.
+        let mut empty: Vec<bool> =
+            self.weight.iter().zip(&self.size).map(|(&weight, &size)| weight == 0 && size >= 2).collect();
+        if empty.contains(&true) {
+            limits.check_time()?;
+            for operator in &ground.operators {
+                while let Some(atom) = self.unbalanced(ground, operator, &|key| empty[key as usize]) {
+                    empty[self.key_of[atom] as usize] = false;
+                }
+            }
+            holds.iter_mut().zip(&empty).for_each(|(holds, &empty)| *holds |= empty);
+        }
         let mut groups = vec![Vec::new(); self.weight.len()];
         for atom in 0..ground.names.len() {
             let key = self.key_of[atom];
-            if key != NONE && self.weight[key as usize] == 1 {
+            if key != NONE && holds[key as usize] {
                 groups[key as usize].push(atom as u32);
             }
         }
         groups.retain(|group| group.len() >= 2);
-        groups
+        Ok(groups)
     }
 }

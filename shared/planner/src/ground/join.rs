@@ -1,6 +1,7 @@
 //! All instances of a rule's body, by backtracking over its atoms, smallest choice first.
 
 use super::relation::Relation;
+use super::relevance::{Values, matters};
 use super::{GroundError, GroundLimits};
 use crate::lifted::{Body, LiftedAtom, Role, Symbols, Term};
 
@@ -23,6 +24,10 @@ pub(crate) struct Join<'a> {
     pub symbols: &'a Symbols,
     pub relations: &'a [Relation],
     pub body: &'a Body,
+    /// Which instances are wanted; `None`: all.
+    pub filter: Option<&'a [Values]>,
+    /// The view of its relation that each atom of the body looks at.
+    pub views: &'a [u32],
     pub binding: &'a mut Vec<u32>,
     pub found: &'a mut Vec<u32>,
     /// Work space: the atoms not joined yet, and the slots bound so far.
@@ -103,7 +108,7 @@ impl<'a> Join<'a> {
             _ => UNBOUND,
         };
         let rest = &mut pending[..last];
-        match self.candidates(atom) {
+        match self.candidates(position) {
             Candidates::One(row) => {
                 if row != skip {
                     self.extend(rest, trigger);
@@ -111,11 +116,6 @@ impl<'a> Join<'a> {
             }
             Candidates::Listed(rows) => {
                 for &row in rows {
-                    self.try_row(atom, relation, row, skip, rest, trigger);
-                }
-            }
-            Candidates::All(count) => {
-                for row in 0..count {
                     self.try_row(atom, relation, row, skip, rest, trigger);
                 }
             }
@@ -151,13 +151,14 @@ impl<'a> Join<'a> {
         for (at, &position) in pending.iter().enumerate() {
             let atom = &self.body.atoms[position];
             let relation = &self.relations[atom.predicate as usize];
-            let mut size = relation.shown();
+            let view = self.views[position];
+            let mut size = relation.rows_of(view).len();
             let mut bound = 0;
             for (k, &term) in atom.args.iter().enumerate() {
                 let object = self.value(term);
                 if object != UNBOUND {
                     bound += 1;
-                    size = size.min(relation.with(k, object).len());
+                    size = size.min(relation.with(view, k, object).len());
                 }
             }
             if bound == atom.args.len() {
@@ -174,7 +175,8 @@ impl<'a> Join<'a> {
         best
     }
 
-    fn candidates(&self, atom: &LiftedAtom) -> Candidates<'a> {
+    fn candidates(&self, position: usize) -> Candidates<'a> {
+        let (atom, view) = (&self.body.atoms[position], self.views[position]);
         let relations: &'a [Relation] = self.relations;
         let relation = &relations[atom.predicate as usize];
         let mut shortest: Option<&'a [u32]> = None;
@@ -187,7 +189,7 @@ impl<'a> Join<'a> {
                     args[bound] = object;
                 }
                 bound += 1;
-                let rows = relation.with(k, object);
+                let rows = relation.with(view, k, object);
                 if shortest.is_none_or(|s| rows.len() < s.len()) {
                     shortest = Some(rows);
                 }
@@ -199,11 +201,8 @@ impl<'a> Join<'a> {
                 _ => Candidates::None,
             };
         }
-        match shortest {
-            // The relations outlive the join, so the list may be walked while variables are bound.
-            Some(rows) => Candidates::Listed(rows),
-            None => Candidates::All(relation.shown() as u32),
-        }
+        // The relations outlive the join, so the list may be walked while variables are bound.
+        Candidates::Listed(shortest.unwrap_or_else(|| relation.rows_of(view)))
     }
 
     #[inline]
@@ -275,6 +274,9 @@ impl<'a> Join<'a> {
         let free = body.bound[from..].iter().position(|&slot| self.binding[slot as usize] == UNBOUND);
         let Some(free) = free else {
             let binding = &self.binding;
+            if self.filter.is_some_and(|filter| !matters(filter, binding)) {
+                return;
+            }
             self.count += 1;
             self.found.extend(body.bound.iter().map(|&slot| binding[slot as usize]));
             return;
@@ -296,5 +298,4 @@ enum Candidates<'a> {
     /// The atom is bound and this is its row.
     One(u32),
     Listed(&'a [u32]),
-    All(u32),
 }

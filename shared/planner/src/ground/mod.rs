@@ -1,7 +1,7 @@
 //! Grounding: from a lifted task to a finite-domain one.
 //!
-//! The stages, each a file: the rules' fixpoint without deletes ([`reach`], over [`relation`] and [`join`]),
-//! its instances as propositional operators ([`instantiate`], [`quantified`]), the removal of what is
+//! The stages, each a file: what can matter for the goal ([`relevance`]), the rules' fixpoint without deletes
+//! ([`reach`], over [`relation`] and [`join`]), its instances as propositional operators ([`instantiate`], [`quantified`]), the removal of what is
 //! constant or irrelevant ([`simplify`]), mutex groups ([`invariant`]) and finite-domain packing ([`encode`]).
 
 mod bounds;
@@ -12,11 +12,14 @@ mod invariant;
 mod join;
 mod layers;
 mod limits;
+mod needed;
 mod numbers;
+mod patterns;
 mod propositional;
 mod quantified;
 mod reach;
 mod relation;
+mod relevance;
 mod simplify;
 
 use lamma_pddl::ast::{Domain, Problem};
@@ -53,7 +56,8 @@ pub enum GroundError {
 /// ([`Task::impossible`]).
 pub fn ground(domain: &Domain, problem: &Problem, limits: &GroundLimits<'_>) -> Result<Task, GroundError> {
     let lifted = lifted::lift(domain, problem)?;
-    let reached = reach::reach(&lifted, limits)?;
+    let filters = relevance::filters(&lifted);
+    let reached = reach::reach(&lifted, &filters, limits)?;
     let mut ground = instantiate::instantiate(&lifted, &reached, limits)?;
     simplify::simplify(&mut ground);
     limits.check_time()?;

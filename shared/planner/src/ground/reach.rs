@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, VecDeque};
 
 use super::join::{Join, Trigger};
 use super::relation::Relation;
+use super::relevance::Filters;
 use super::{GroundError, GroundLimits};
-use crate::lifted::{Change, Head, Lifted, LiftedAtom, Role, Term};
+use crate::lifted::{Body, Change, Head, Lifted, LiftedAtom, Role, Term};
 
 /// The fixpoint.
 pub(crate) struct Reached {
@@ -18,9 +19,13 @@ pub(crate) struct Reached {
     pub counts: Vec<usize>,
 }
 
-/// Computes the fixpoint.
-pub(crate) fn reach(lifted: &Lifted, limits: &GroundLimits<'_>) -> Result<Reached, GroundError> {
-    let mut fixpoint = Fixpoint::new(lifted, limits);
+/// Computes the fixpoint, of the instances that the filters let pass.
+pub(crate) fn reach(
+    lifted: &Lifted,
+    filters: &Filters,
+    limits: &GroundLimits<'_>,
+) -> Result<Reached, GroundError> {
+    let mut fixpoint = Fixpoint::new(lifted, filters, limits);
     fixpoint.load();
     for rule in 0..lifted.rules.len() {
         if !fixpoint.is_late(rule) && fixpoint.first_changing_atom(rule).is_none() {
@@ -28,7 +33,7 @@ pub(crate) fn reach(lifted: &Lifted, limits: &GroundLimits<'_>) -> Result<Reache
         }
     }
     while let Some((predicate, row)) = fixpoint.queue.pop_front() {
-        fixpoint.relations[predicate as usize].show_next();
+        fixpoint.relations[predicate as usize].show_next(&lifted.symbols.ranges);
         fixpoint.trigger(predicate, row)?;
     }
     for rule in 0..lifted.rules.len() {
@@ -68,10 +73,13 @@ const WORDS_A_FACT: usize = 6;
 
 struct Fixpoint<'a> {
     lifted: &'a Lifted,
+    filters: &'a Filters,
     limits: &'a GroundLimits<'a>,
     relations: Vec<Relation>,
     instances: Vec<Vec<u32>>,
     counts: Vec<usize>,
+    /// For each rule the views that the atoms of its body look at.
+    views: Vec<Vec<u32>>,
     /// Where each predicate occurs.
     triggers: Vec<Occurrences>,
     queue: VecDeque<(u32, u32)>,
@@ -87,15 +95,17 @@ struct Fixpoint<'a> {
 }
 
 impl<'a> Fixpoint<'a> {
-    fn new(lifted: &'a Lifted, limits: &'a GroundLimits<'a>) -> Self {
+    fn new(lifted: &'a Lifted, filters: &'a Filters, limits: &'a GroundLimits<'a>) -> Self {
         let symbols = &lifted.symbols;
         let objects = symbols.objects.len();
         let mut fixpoint = Fixpoint {
             lifted,
+            filters,
             limits,
             relations: symbols.predicates.iter().map(|p| Relation::new(p.arity, objects)).collect(),
             instances: vec![Vec::new(); lifted.rules.len()],
             counts: vec![0; lifted.rules.len()],
+            views: Vec::with_capacity(lifted.rules.len()),
             triggers: vec![Occurrences::default(); symbols.predicates.len()],
             queue: VecDeque::new(),
             facts: 0,
@@ -107,8 +117,12 @@ impl<'a> Fixpoint<'a> {
             pending: Vec::new(),
             trail: Vec::new(),
         };
+        for rule in &lifted.rules {
+            let views = rule.body.atoms.iter().map(|atom| fixpoint.view(&rule.body, atom)).collect();
+            fixpoint.views.push(views);
+        }
         for (index, rule) in lifted.rules.iter().enumerate() {
-            if fixpoint.is_late(index) {
+            if fixpoint.is_late(index) || fixpoint.is_idle(index) {
                 continue;
             }
             for (position, atom) in rule.body.atoms.iter().enumerate() {
@@ -118,6 +132,20 @@ impl<'a> Fixpoint<'a> {
             }
         }
         fixpoint
+    }
+
+    /// The view of the rows that can match an atom of a body: its variables' ranges.
+    fn view(&mut self, body: &Body, atom: &LiftedAtom) -> u32 {
+        let symbols = &self.lifted.symbols;
+        let kinds = atom.args.iter().map(|term| match term {
+            Term::Object(_) => None,
+            Term::Variable(slot) => {
+                let range = body.variables[*slot as usize];
+                let all = symbols.ranges[range as usize].members.len() == symbols.objects.len();
+                (!all).then_some(range)
+            }
+        });
+        self.relations[atom.predicate as usize].view(kinds.collect())
     }
 
     fn changes(&self, predicate: u32) -> bool {
@@ -143,7 +171,7 @@ impl<'a> Fixpoint<'a> {
             let relation = &mut self.relations[*predicate as usize];
             let Some(row) = relation.insert(args) else { continue };
             if self.lifted.symbols.predicates[*predicate as usize].role == Role::Static {
-                relation.show_next();
+                relation.show_next(&self.lifted.symbols.ranges);
             } else {
                 self.queue.push_back((*predicate, row));
             }
@@ -170,7 +198,15 @@ impl<'a> Fixpoint<'a> {
         result
     }
 
+    /// Whether no instance of the rule matters.
+    fn is_idle(&self, rule: usize) -> bool {
+        self.filters[rule].as_ref().is_some_and(Vec::is_empty)
+    }
+
     fn fire(&mut self, index: usize, trigger: Option<Trigger>) -> Result<(), GroundError> {
+        if self.is_idle(index) {
+            return Ok(());
+        }
         let rule = &self.lifted.rules[index];
         let width = rule.body.bound.len();
         let mut found = std::mem::take(&mut self.found);
@@ -182,6 +218,8 @@ impl<'a> Fixpoint<'a> {
             symbols: &self.lifted.symbols,
             relations: &self.relations,
             body: &rule.body,
+            filter: self.filters[index].as_deref(),
+            views: &self.views[index],
             binding: &mut self.binding,
             found: &mut found,
             pending: &mut self.pending,

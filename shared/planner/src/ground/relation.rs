@@ -1,6 +1,21 @@
 //! The facts of one predicate, indexed for joins.
 
 use crate::id_table::{IdTable, Slot, hash_words};
+use crate::lifted::Range;
+
+/// A predicate has at most so many views; further ones are one for all.
+const MAX_VIEWS: usize = 16;
+
+/// The shown rows whose objects are of certain kinds. `at` tells the place of a truck or of one of a thousand
+/// parcels: who asks for trucks need not look at parcels.
+#[derive(Debug, Default)]
+struct View {
+    /// For each position the range that the object is in; `None`: any.
+    kinds: Vec<Option<u32>>,
+    rows: Vec<u32>,
+    /// For each position and each object the rows with that object there.
+    index: Vec<Vec<Vec<u32>>>,
+}
 
 /// A growing set of rows of objects. A row is found by [`Relation::find`] as soon as it is inserted, but
 /// joins see it only once it was shown: semi-naive evaluation shows facts one by one.
@@ -13,8 +28,7 @@ pub(crate) struct Relation {
     table: IdTable,
     /// The rows that joins see are the first `shown`.
     shown: usize,
-    /// For each position and each object the shown rows with that object there.
-    index: Vec<Vec<Vec<u32>>>,
+    views: Vec<View>,
 }
 
 impl Relation {
@@ -67,23 +81,51 @@ impl Relation {
         Some(id)
     }
 
-    /// Shows the next row to joins. Rows are shown in the order of insertion.
-    pub fn show_next(&mut self) {
-        if self.index.is_empty() && self.arity > 0 {
-            self.index = vec![vec![Vec::new(); self.objects]; self.arity];
+    /// The number of the view of these kinds. Views have to be asked for before a row is shown.
+    pub fn view(&mut self, mut kinds: Vec<Option<u32>>) -> u32 {
+        if self.views.len() >= MAX_VIEWS {
+            kinds.fill(None);
         }
-        let row = self.shown;
-        for position in 0..self.arity {
-            let object = self.rows[row * self.arity + position];
-            self.index[position][object as usize].push(row as u32);
-        }
-        self.shown += 1;
+        let known = self.views.iter().position(|view| view.kinds == kinds);
+        let at = known.unwrap_or_else(|| {
+            self.views.push(View { kinds, ..View::default() });
+            self.views.len() - 1
+        });
+        at as u32
     }
 
-    /// The shown rows with `object` at `position`.
+    /// Shows the next row to joins. Rows are shown in the order of insertion.
+    pub fn show_next(&mut self, ranges: &[Range]) {
+        let row = self.shown as u32;
+        self.shown += 1;
+        let args = &self.rows[row as usize * self.arity..(row as usize + 1) * self.arity];
+        for view in &mut self.views {
+            let fits = |(kind, &object): (&Option<u32>, &u32)| {
+                kind.is_none_or(|range| ranges[range as usize].contains[object as usize])
+            };
+            if !view.kinds.iter().zip(args).all(fits) {
+                continue;
+            }
+            if view.index.is_empty() {
+                view.index = vec![vec![Vec::new(); self.objects]; self.arity];
+            }
+            view.rows.push(row);
+            for (by_object, &object) in view.index.iter_mut().zip(args) {
+                by_object[object as usize].push(row);
+            }
+        }
+    }
+
+    /// The shown rows of a view.
     #[inline]
-    pub fn with(&self, position: usize, object: u32) -> &[u32] {
-        match self.index.get(position) {
+    pub fn rows_of(&self, view: u32) -> &[u32] {
+        &self.views[view as usize].rows
+    }
+
+    /// The shown rows of a view with `object` at `position`.
+    #[inline]
+    pub fn with(&self, view: u32, position: usize, object: u32) -> &[u32] {
+        match self.views[view as usize].index.get(position) {
             Some(by_object) => &by_object[object as usize],
             None => &[],
         }

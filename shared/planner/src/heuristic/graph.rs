@@ -18,6 +18,8 @@ const MAX_SUBSETS_OF: usize = 5;
 pub(crate) struct Graph {
     /// The nodes that wait for each fact.
     pub waiting: Csr<u32>,
+    /// The same, sorted by how many conditions a node has.
+    pub triggers: Triggers,
     pub conditions: Csr<FactId>,
     pub effects: Csr<FactId>,
     /// The operator of each node; [`NO_NODE`] for axioms.
@@ -78,15 +80,17 @@ impl Graph {
                 repeated.push((comparison, by_gain));
             }
         }
-        let Nodes { conditions, effects, operator_of, .. } = nodes;
+        let Nodes { conditions, effects, operator_of, .. } = nodes.by_condition(first_numeric);
         let count = operator_of.len();
         let pairs =
             (0..count).flat_map(|node| conditions.row(node).iter().map(move |fact| (fact.0, node as u32)));
         let waiting = Csr::from_pairs(task.facts.len(), pairs);
         let condition_count: Vec<u32> = conditions.rows().map(|row| row.len() as u32).collect();
         let derived = &task.variables[task.primary_variables..];
+        let triggers = Triggers::new(task.facts.len(), &conditions, &effects);
         Graph {
             waiting,
+            triggers,
             free_nodes: (0..count as u32).filter(|&node| condition_count[node as usize] == 0).collect(),
             free_facts: derived.iter().map(|v| v.first).filter(|fact| wanted[fact.index()]).collect(),
             conditions,
@@ -101,6 +105,59 @@ impl Graph {
     /// How much there is to look at.
     pub fn size(&self) -> usize {
         self.condition_count.len() + self.conditions.items().len() + self.effects.items().len()
+    }
+}
+
+/// Nodes with more effects are not spread over those.
+const MAX_SPREAD: usize = 4;
+
+/// What a fact that was just reached sets off, by how it comes about. Most nodes have one condition or two, and few
+/// effects; then there is nothing to count down, and what is looked at lies side by side in memory.
+#[derive(Debug, Default)]
+pub(crate) struct Triggers {
+    /// Effects that need nothing else.
+    pub alone: Csr<Spread>,
+    /// Effects that need one other fact, and that fact.
+    pub in_pairs: Csr<(FactId, Spread)>,
+    /// Places in `many`.
+    pub among_many: Csr<u32>,
+    /// The other nodes, and how many conditions they have.
+    pub many: Vec<(u32, u32)>,
+}
+
+/// One effect of a node.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Spread {
+    pub effect: FactId,
+    pub node: u32,
+}
+
+impl Triggers {
+    fn new(facts: usize, conditions: &Csr<FactId>, effects: &Csr<FactId>) -> Self {
+        let few = |node: usize| effects.row(node).len() <= MAX_SPREAD;
+        let spread = |length: usize| {
+            let nodes = (0..conditions.len()).filter(move |&n| conditions.row(n).len() == length && few(n));
+            nodes.flat_map(move |node| {
+                let of = effects.row(node).iter().map(move |&effect| Spread { effect, node: node as u32 });
+                of.map(move |spread| (conditions.row(node), spread))
+            })
+        };
+        let alone = spread(1).map(|(conditions, spread)| (conditions[0].0, spread));
+        let pairs = spread(2).flat_map(|(conditions, spread)| {
+            [(conditions[0].0, (conditions[1], spread)), (conditions[1].0, (conditions[0], spread))]
+        });
+        let length = |node: usize| conditions.row(node).len();
+        let many = (0..conditions.len()).filter(|&n| length(n) > 2 || length(n) > 0 && !few(n));
+        let many: Vec<(u32, u32)> = many.map(|node| (node as u32, length(node) as u32)).collect();
+        let members = many.iter().enumerate().flat_map(|(at, &(node, _))| {
+            conditions.row(node as usize).iter().map(move |fact| (fact.0, at as u32))
+        });
+        Triggers {
+            alone: Csr::from_pairs(facts, alone),
+            in_pairs: Csr::from_pairs(facts, pairs),
+            among_many: Csr::from_pairs(facts, members),
+            many,
+        }
     }
 }
 
@@ -195,6 +252,20 @@ impl Nodes<'_> {
                 self.add(&single.row[1..], &single.row[..1], single.operator);
             }
         }
+    }
+
+    /// The nodes before `end` in the order of their first conditions, so that those that a fact sets off lie
+    /// side by side.
+    fn by_condition(self, end: u32) -> Self {
+        let first = |node: u32| self.conditions.row(node as usize).first().map_or(0, |fact| fact.0);
+        let order = Csr::from_pairs(self.wanted.len().max(1), (0..end).map(|node| (first(node), node)));
+        let mut sorted = Nodes { wanted: self.wanted, ..Nodes::default() };
+        for node in order.items().iter().copied().chain(end..self.operator_of.len() as u32) {
+            sorted.conditions.push_row(self.conditions.row(node as usize).iter().copied());
+            sorted.effects.push_row(self.effects.row(node as usize).iter().copied());
+            sorted.operator_of.push(self.operator_of[node as usize]);
+        }
+        sorted
     }
 
     fn add(&mut self, conditions: &[FactId], effects: &[FactId], operator: u32) {

@@ -63,6 +63,16 @@ impl LandmarkGraph {
     pub fn len(&self) -> usize {
         self.is_goal.len()
     }
+
+    /// The bits of all landmarks in a word of accepted ones.
+    fn all(&self, word: usize) -> u64 {
+        let rest = self.len() - word * 64;
+        if rest < 64 { (1 << rest) - 1 } else { u64::MAX }
+    }
+
+    fn holds(&self, task: &Task, landmark: usize, state: &[u64]) -> bool {
+        self.landmarks.row(landmark).iter().any(|&fact| task.holds(state, fact))
+    }
 }
 
 /// The nodes that have each fact as an effect.
@@ -274,17 +284,15 @@ impl Status {
 
     /// Adds the next state, reached from state number `parent`.
     pub fn reach(&mut self, task: &Task, graph: &LandmarkGraph, parent: usize, state: &[u64]) {
-        let start = self.accepted.len();
-        self.accepted.extend_from_within(parent * self.words..(parent + 1) * self.words);
-        for landmark in 0..graph.len() {
-            if self.accepted[start + landmark / 64] >> (landmark % 64) & 1 == 1 {
-                continue;
-            }
-            let holds = graph.landmarks.row(landmark).iter().any(|&fact| task.holds(state, fact));
-            let in_parent =
-                |&l: &u32| self.accepted[parent * self.words + l as usize / 64] >> (l % 64) & 1 == 1;
-            if holds && graph.before.row(landmark).iter().all(in_parent) {
-                self.accepted[start + landmark / 64] |= 1 << (landmark % 64);
+        let (before, start) = (parent * self.words, self.accepted.len());
+        self.accepted.extend_from_within(before..before + self.words);
+        for word in 0..self.words {
+            let open = !self.accepted[before + word] & graph.all(word);
+            for landmark in bits(open).map(|bit| word * 64 + bit) {
+                let in_parent = |&l: &u32| self.accepted[before + l as usize / 64] >> (l % 64) & 1 == 1;
+                if graph.holds(task, landmark, state) && graph.before.row(landmark).iter().all(in_parent) {
+                    self.accepted[start + word] |= 1 << (landmark % 64);
+                }
             }
         }
     }
@@ -292,22 +300,25 @@ impl Status {
     /// The landmarks still to come in state number `id`: those not accepted, and those accepted but false
     /// and needed again, for the goal or directly before one not accepted.
     pub fn count(&self, task: &Task, graph: &LandmarkGraph, id: usize, state: &[u64]) -> u32 {
-        let accepted = |l: usize| self.accepted[id * self.words + l / 64] >> (l % 64) & 1 == 1;
+        let accepted = &self.accepted[id * self.words..(id + 1) * self.words];
+        let is_open = |&l: &u32| accepted[l as usize / 64] >> (l % 64) & 1 == 0;
         let mut count = 0;
-        for landmark in 0..graph.len() {
-            if !accepted(landmark) {
-                count += 1;
-                continue;
-            }
-            let needed = || {
-                graph.is_goal[landmark]
-                    || graph.needed_for.row(landmark).iter().any(|&l| !accepted(l as usize))
-            };
-            let holds = || graph.landmarks.row(landmark).iter().any(|&fact| task.holds(state, fact));
-            if needed() && !holds() {
-                count += 1;
+        for (word, &accepted) in accepted.iter().enumerate() {
+            count += (!accepted & graph.all(word)).count_ones();
+            for landmark in bits(accepted).map(|bit| word * 64 + bit) {
+                let needed = graph.is_goal[landmark] || graph.needed_for.row(landmark).iter().any(is_open);
+                count += u32::from(needed && !graph.holds(task, landmark, state));
             }
         }
         count
     }
+}
+
+/// The positions of the bits that are set.
+fn bits(mut word: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let bit = word.trailing_zeros();
+        word &= word.wrapping_sub(1);
+        (bit < u64::BITS).then_some(bit as usize)
+    })
 }

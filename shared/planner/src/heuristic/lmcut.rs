@@ -4,6 +4,7 @@
 
 use super::bucket_queue::BucketQueue;
 use super::graph::{Graph, NO_NODE};
+use super::relaxation::Stamps;
 use super::{Costs, Estimate, Heuristic, Properties};
 use crate::csr::Csr;
 use crate::task::{FactId, OperatorId, Task};
@@ -25,11 +26,16 @@ pub struct LandmarkCut<'a> {
     cost: Vec<u32>,
     wave: Wave,
     zone: Vec<Zone>,
+    /// The facts of the goal zone.
+    goal_zone: Vec<FactId>,
     agenda: Vec<FactId>,
+    seen: Stamps,
     /// The operators of the cut.
     cut: Vec<u32>,
     /// The estimate of the state looked at last.
     total: u32,
+    /// Its cuts, one after the other: what each counts, how many operators it has, and these.
+    cuts: Vec<u32>,
 }
 
 /// What is known of a node of the relaxed graph.
@@ -51,6 +57,8 @@ enum Zone {
     Goal,
     /// Reached from the state without entering the goal zone.
     Before,
+    /// Reached through the goal zone only.
+    Behind,
 }
 
 /// The costs of facts as h_max has them.
@@ -180,9 +188,12 @@ impl<'a> LandmarkCut<'a> {
             },
             fresh,
             zone: vec![Zone::Unknown; task.facts.len()],
+            goal_zone: Vec::new(),
             agenda: Vec::new(),
+            seen: Stamps::new(task.facts.len()),
             cut: Vec::new(),
             total: 0,
+            cuts: Vec::new(),
             graph,
         }
     }
@@ -205,12 +216,14 @@ impl<'a> LandmarkCut<'a> {
 
     /// Marks what leads to `goal` without cost.
     fn mark_goal_zone(&mut self, goal: FactId) {
-        let Self { graph, makers, wave, zone, agenda, cost, .. } = self;
+        let Self { graph, makers, wave, zone, goal_zone, cost, .. } = self;
         zone.fill(Zone::Unknown);
         zone[goal.index()] = Zone::Goal;
-        agenda.clear();
-        agenda.push(goal);
-        while let Some(fact) = agenda.pop() {
+        goal_zone.clear();
+        goal_zone.push(goal);
+        let mut next = 0;
+        while let Some(&fact) = goal_zone.get(next) {
+            next += 1;
             for &id in makers.row(fact.index()) {
                 let node = wave.nodes[id as usize];
                 if cost[node.operator as usize] > 0
@@ -222,71 +235,131 @@ impl<'a> LandmarkCut<'a> {
                 let zone = &mut zone[node.supporter.index()];
                 if *zone == Zone::Unknown {
                     *zone = Zone::Goal;
-                    agenda.push(node.supporter);
+                    goal_zone.push(node.supporter);
                 }
             }
         }
     }
 
     /// The operators that cross into the goal zone on the way from the state.
-    fn find_cut(&mut self, state: &[u64]) {
-        let Self { task, graph, wave, zone, agenda, cut, .. } = self;
-        cut.clear();
-        agenda.clear();
-        for fact in task.facts_of(state).chain(graph.free_facts.iter().copied()) {
-            if zone[fact.index()] == Zone::Unknown {
-                zone[fact.index()] = Zone::Before;
-                agenda.push(fact);
-            }
-        }
-        let mut cross = |id: u32, operator: u32, agenda: &mut Vec<FactId>| {
-            let effects = graph.effects.row(id as usize);
-            if effects.iter().any(|fact| zone[fact.index()] == Zone::Goal) {
-                cut.push(operator);
-                return;
-            }
-            for &fact in effects {
-                if zone[fact.index()] == Zone::Unknown {
-                    zone[fact.index()] = Zone::Before;
-                    agenda.push(fact);
+    fn find_cut(&mut self, goal_cost: u32) {
+        self.cut.clear();
+        for at in 0..self.goal_zone.len() {
+            for maker in self.makers.range(self.goal_zone[at].index()) {
+                let id = self.makers.items()[maker] as usize;
+                let node = self.wave.nodes[id];
+                // Those without cost start in the zone.
+                if node.missing > 0 || self.cost[node.operator as usize] == 0 {
+                    continue;
+                }
+                if self.graph.condition_count[id] == 0 || self.is_before(node.supporter, goal_cost) {
+                    self.cut.push(node.operator);
                 }
             }
+        }
+        self.cut.sort_unstable();
+        self.cut.dedup();
+    }
+
+    /// Whether a fact outside the goal zone is reached from the state without entering it. All of the zone costs
+    /// at least what the goal does, so cheaper facts are reached without it. For the others it is looked for
+    /// backwards: what is cheaper is mostly a step or two away.
+    fn is_before(&mut self, fact: FactId, goal_cost: u32) -> bool {
+        let Self { graph, makers, wave, zone, agenda, seen, .. } = self;
+        let known = |zone: Zone, fact: FactId| match zone {
+            Zone::Before => Some(true),
+            Zone::Goal | Zone::Behind => Some(false),
+            Zone::Unknown => (wave.fact_cost[fact.index()] < goal_cost).then_some(true),
         };
-        for &id in &graph.free_nodes {
-            cross(id, wave.nodes[id as usize].operator, agenda);
+        if let Some(known) = known(zone[fact.index()], fact) {
+            return known;
         }
-        while let Some(fact) = agenda.pop() {
-            for &id in graph.waiting.row(fact.index()) {
+        seen.clear();
+        seen.mark(fact.index());
+        agenda.clear();
+        agenda.push(fact);
+        let mut next = 0;
+        while let Some(&at) = agenda.get(next) {
+            next += 1;
+            for &id in makers.row(at.index()) {
                 let node = wave.nodes[id as usize];
-                if node.supporter == fact && node.missing == 0 {
-                    cross(id, node.operator, agenda);
+                let from = node.supporter;
+                let free = graph.condition_count[id as usize] == 0;
+                let start = if free { Some(true) } else { known(zone[from.index()], from) };
+                // What enters the zone is in the cut, whatever else it makes true.
+                let enters = || graph.effects.row(id as usize).iter().any(|f| zone[f.index()] == Zone::Goal);
+                if node.missing > 0 || start == Some(false) || enters() {
+                    continue;
+                }
+                if start == Some(true) {
+                    zone[fact.index()] = Zone::Before;
+                    return true;
+                }
+                if seen.mark(from.index()) {
+                    agenda.push(from);
                 }
             }
         }
-        cut.sort_unstable();
-        cut.dedup();
+        agenda.iter().for_each(|fact| zone[fact.index()] = Zone::Behind);
+        false
     }
 
     /// The estimate; `None` at a dead end.
     pub fn value(&mut self, state: &[u64]) -> Option<u32> {
+        self.forget();
+        self.go_on(state)
+    }
+
+    /// The estimate for the state that `operator` leads to from one with these cuts: those without the operator
+    /// are landmarks here too, and only what is missing beside them is looked for (Pommerening & Helmert 2013,
+    /// "Incremental LM-cut", section 3).
+    fn value_after(&mut self, state: &[u64], cuts: &[u32], operator: OperatorId) -> Option<u32> {
+        self.forget();
+        let mut rest = cuts;
+        while let [least, count, after @ ..] = rest {
+            let (cut, after) = after.split_at(*count as usize);
+            rest = after;
+            if cut.binary_search(&operator.0).is_err() {
+                self.count(*least, cut);
+            }
+        }
+        self.go_on(state)
+    }
+
+    fn forget(&mut self) {
         self.cost.copy_from_slice(&self.full_cost);
-        self.wave.explore(self.task, &self.graph, &self.fresh, &self.cost, state);
         self.total = 0;
+        self.cuts.clear();
+    }
+
+    /// Counts a cut.
+    fn count(&mut self, least: u32, cut: &[u32]) {
+        self.total = self.total.saturating_add(least);
+        self.cuts.extend([least, cut.len() as u32]);
+        self.cuts.extend_from_slice(cut);
+        cut.iter().for_each(|&operator| self.cost[operator as usize] -= least);
+    }
+
+    /// Finds cuts until the goal costs nothing more.
+    fn go_on(&mut self, state: &[u64]) -> Option<u32> {
+        self.wave.explore(self.task, &self.graph, &self.fresh, &self.cost, state);
         while let Some(goal) = self.dearest_goal() {
-            match self.wave.fact_cost[goal.index()] {
+            let goal_cost = self.wave.fact_cost[goal.index()];
+            match goal_cost {
                 UNREACHED => return None,
                 0 => break,
                 _ => {}
             }
             self.mark_goal_zone(goal);
-            self.find_cut(state);
+            self.find_cut(goal_cost);
             let least = self.cut.iter().map(|&operator| self.cost[operator as usize]).min().unwrap_or(0);
             if least == 0 {
                 // Only rounding of saturated costs could bring this about; stopping keeps the sum admissible.
                 break;
             }
-            self.total = self.total.saturating_add(least);
-            self.cut.iter().for_each(|&operator| self.cost[operator as usize] -= least);
+            let cut = std::mem::take(&mut self.cut);
+            self.count(least, &cut);
+            self.cut = cut;
             self.wave.explore_again(&self.graph, &self.nodes_of, &self.cost, &self.cut);
         }
         Some(self.total)
@@ -302,10 +375,24 @@ impl Heuristic for LandmarkCut<'_> {
         self.value(state).map_or(Estimate::DeadEnd, Estimate::Cost)
     }
 
-    /// The cuts without the operator are landmarks of the next state too (Pommerening & Helmert 2013,
-    /// "Incremental LM-cut", section 3); what the others count is what the operator's cost was lowered by.
+    /// The cuts without the operator are landmarks of the next state too; what the others count is what the
+    /// operator's cost was lowered by.
     fn bound_after(&self, operator: OperatorId) -> u32 {
         let counted = self.full_cost[operator.index()] - self.cost[operator.index()];
         self.total.saturating_sub(counted)
+    }
+
+    fn findings(&self) -> &[u32] {
+        &self.cuts
+    }
+
+    fn estimate_after(
+        &mut self,
+        state: &[u64],
+        findings: &[u32],
+        operator: OperatorId,
+        _preferred: &mut Vec<OperatorId>,
+    ) -> Estimate {
+        self.value_after(state, findings, operator).map_or(Estimate::DeadEnd, Estimate::Cost)
     }
 }

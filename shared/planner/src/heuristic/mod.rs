@@ -46,6 +46,20 @@ pub trait Heuristic {
     fn bound_after(&self, _operator: OperatorId) -> u32 {
         0
     }
+    /// What was found out about the last state, for [`Heuristic::estimate_after`]; empty: nothing worth keeping.
+    fn findings(&self) -> &[u32] {
+        &[]
+    }
+    /// The estimate for the state that `operator` leads to from one with these findings.
+    fn estimate_after(
+        &mut self,
+        state: &[u64],
+        _findings: &[u32],
+        _operator: OperatorId,
+        preferred: &mut Vec<OperatorId>,
+    ) -> Estimate {
+        self.estimate(state, preferred)
+    }
 }
 
 /// Zero everywhere: A* with it is uniform-cost search.

@@ -5,7 +5,7 @@
 use std::rc::Rc;
 
 use super::bucket_queue::BucketQueue;
-use super::graph::{Graph, NO_NODE};
+use super::graph::{Graph, NO_NODE, Spread};
 use super::{Estimate, Heuristic, Properties};
 use crate::task::{FactId, OperatorId, Task};
 
@@ -45,13 +45,13 @@ struct Label {
     done: bool,
 }
 
-/// What is known of a node.
+/// What is known of a node with many conditions.
 #[derive(Clone, Copy, Debug)]
-struct Node {
+struct Wait {
     /// Conditions not reached yet.
     missing: u32,
+    /// What those reached cost together.
     cost: u32,
-    base: u32,
 }
 
 #[inline]
@@ -68,12 +68,16 @@ fn reach(labels: &mut [Label], queue: &mut BucketQueue, fact: FactId, cost: u32,
 pub struct Relaxation<'a> {
     task: &'a Task,
     graph: Rc<Graph>,
-    /// The nodes before anything is reached.
-    fresh: Vec<Node>,
+    /// What the nodes cost by themselves, without repetitions.
+    plain: Vec<u32>,
+    /// The nodes with many conditions before anything is reached.
+    fresh: Vec<Wait>,
     is_goal: Vec<bool>,
     // The rest is work space, valid for the state evaluated last.
     labels: Vec<Label>,
-    nodes: Vec<Node>,
+    /// What the nodes cost by themselves.
+    base: Vec<u32>,
+    waits: Vec<Wait>,
     queue: BucketQueue,
     marked_facts: Stamps,
     marked_nodes: Stamps,
@@ -98,11 +102,14 @@ impl<'a> Relaxation<'a> {
         let count = graph.operator_of.len();
         let mut is_goal = vec![false; task.facts.len()];
         task.goal.iter().for_each(|fact| is_goal[fact.index()] = true);
-        let nodes = graph.operator_of.iter().map(cost).zip(&graph.condition_count);
-        let fresh: Vec<Node> = nodes.map(|(base, &missing)| Node { missing, cost: base, base }).collect();
+        let plain: Vec<u32> = graph.operator_of.iter().map(cost).collect();
+        let many = graph.triggers.many.iter();
+        let fresh: Vec<Wait> = many.map(|&(_, missing)| Wait { missing, cost: 0 }).collect();
         Relaxation {
             task,
-            nodes: fresh.clone(),
+            base: plain.clone(),
+            plain,
+            waits: fresh.clone(),
             fresh,
             labels: vec![Label::default(); task.facts.len()],
             queue: BucketQueue::default(),
@@ -119,35 +126,39 @@ impl<'a> Relaxation<'a> {
 
     /// Other costs of operators from now on.
     pub(crate) fn set_costs(&mut self, costs: impl Fn(OperatorId) -> u32) {
-        for (node, &operator) in self.fresh.iter_mut().zip(&self.graph.operator_of) {
+        for (cost, &operator) in self.plain.iter_mut().zip(&self.graph.operator_of) {
             if operator != NO_NODE {
-                node.base = costs(OperatorId(operator));
-                node.cost = node.base;
+                *cost = costs(OperatorId(operator));
             }
         }
+        self.base.copy_from_slice(&self.plain);
     }
 
     /// Works out the costs of facts, until all goals are final or (`exhaustive`) everything is reached.
     /// `MAX`: a node costs as much as its dearest condition; else as all of them together.
     fn propagate<const MAX: bool>(&mut self, state: &[u64], exhaustive: bool) {
         // Plain locals: this loop is where searches spend their time.
-        let Self { task, graph, fresh, nodes, labels, queue, is_goal, .. } = self;
+        let Self { task, graph, plain, fresh, base, waits, labels, queue, is_goal, .. } = self;
         let graph = &**graph;
         labels.fill(Label { cost: UNREACHED, supporter: NO_NODE, done: false });
-        nodes.copy_from_slice(fresh);
+        waits.copy_from_slice(fresh);
         if !MAX && !graph.repeated.is_empty() {
-            repeat(task, graph, state, nodes);
+            let numeric = graph.first_numeric as usize;
+            base[numeric..].copy_from_slice(&plain[numeric..]);
+            repeat(task, graph, state, base);
         }
         queue.clear();
         let labels = &mut labels[..];
-        let nodes = &mut nodes[..];
+        let (base, waits) = (&base[..], &mut waits[..]);
         for fact in task.facts_of(state).chain(graph.free_facts.iter().copied()) {
             reach(labels, queue, fact, 0, NO_NODE);
         }
-        for &node in &graph.free_nodes {
-            let cost = nodes[node as usize].cost;
+        let fire = |labels: &mut [Label], queue: &mut BucketQueue, node: u32, conditions: u32| {
+            let cost = base[node as usize].saturating_add(conditions).min(UNREACHED - 1);
             graph.effects.row(node as usize).iter().for_each(|&fact| reach(labels, queue, fact, cost, node));
-        }
+        };
+        graph.free_nodes.iter().for_each(|&node| fire(labels, queue, node, 0));
+        let triggers = &graph.triggers;
         let mut goals = task.goal.len();
         while let Some((cost, fact)) = queue.pop() {
             if labels[fact.index()].cost != cost || std::mem::replace(&mut labels[fact.index()].done, true) {
@@ -159,19 +170,30 @@ impl<'a> Relaxation<'a> {
                     return;
                 }
             }
-            for &id in graph.waiting.row(fact.index()) {
-                let node = &mut nodes[id as usize];
-                node.missing -= 1;
-                node.cost = if MAX {
-                    node.cost.max(node.base + cost)
-                } else {
-                    node.cost.saturating_add(cost).min(UNREACHED - 1)
-                };
-                if node.missing == 0 {
-                    let cost = node.cost;
-                    for &effect in graph.effects.row(id as usize) {
-                        reach(labels, queue, effect, cost, id);
-                    }
+            for &Spread { effect, node } in triggers.alone.row(fact.index()) {
+                let known = labels[effect.index()].cost;
+                if known > cost {
+                    let cost = base[node as usize].saturating_add(cost).min(UNREACHED - 1);
+                    reach(labels, queue, effect, cost, node);
+                }
+            }
+            for &(other, Spread { effect, node }) in triggers.in_pairs.row(fact.index()) {
+                let other = labels[other.index()];
+                let known = labels[effect.index()].cost;
+                // Facts come out by rising cost, so the last condition of a node is the dearest.
+                let cost = if MAX { cost } else { cost.saturating_add(other.cost) };
+                if other.done && known > cost {
+                    let cost = base[node as usize].saturating_add(cost).min(UNREACHED - 1);
+                    reach(labels, queue, effect, cost, node);
+                }
+            }
+            for &at in triggers.among_many.row(fact.index()) {
+                let wait = &mut waits[at as usize];
+                wait.missing -= 1;
+                wait.cost = if MAX { cost } else { wait.cost.saturating_add(cost) };
+                if wait.missing == 0 {
+                    let cost = wait.cost;
+                    fire(labels, queue, triggers.many[at as usize].0, cost);
                 }
             }
         }
@@ -233,7 +255,7 @@ impl<'a> Relaxation<'a> {
             if again && node < self.graph.first_numeric {
                 continue;
             }
-            total = total.saturating_add(self.nodes[node as usize].base).min(UNREACHED - 1);
+            total = total.saturating_add(self.base[node as usize]).min(UNREACHED - 1);
             if again {
                 continue;
             }
@@ -249,15 +271,14 @@ impl<'a> Relaxation<'a> {
 
 /// Charges nodes that change numbers for as many repetitions as it takes from `state` on (Scala, Haslum &
 /// Thiébaux 2016, "Heuristics for numeric planning via subgoaling", section 4).
-fn repeat(task: &Task, graph: &Graph, state: &[u64], nodes: &mut [Node]) {
+fn repeat(task: &Task, graph: &Graph, state: &[u64], base: &mut [u32]) {
     for (comparison, by_gain) in &graph.repeated {
         let gap = task.numeric.comparisons[*comparison as usize].1.gap(task.numeric.of(state));
         for &(node, gain) in by_gain {
             let times = (gap / gain).ceil().clamp(1.0, MAX_REPETITIONS);
-            let node = &mut nodes[node as usize];
+            let base = &mut base[node as usize];
             // Without a gap (a number without a value) it counts once.
-            node.base = node.base.saturating_mul(if times.is_nan() { 1 } else { times as u32 });
-            node.cost = node.base;
+            *base = base.saturating_mul(if times.is_nan() { 1 } else { times as u32 });
         }
     }
 }

@@ -3,7 +3,7 @@
 use lamma_pddl::ast::{Action, ArithmeticOp, Effect};
 
 use super::metric::Metric;
-use super::resolve::{Scope, and, atom, expression, formula, function};
+use super::resolve::{MAX_DEPTH, Scope, and, atom, expression, formula, function};
 use super::rules::Lifter;
 use super::{Change, Expr, Formula};
 use crate::ground::GroundError;
@@ -50,8 +50,10 @@ impl Parts {
         metric: &Metric,
         depth: usize,
     ) -> Result<(), GroundError> {
-        if depth > 200 {
-            return Err(GroundError::Malformed("an effect is nested deeper than 200 levels".into()));
+        if depth > MAX_DEPTH {
+            return Err(GroundError::Malformed(format!(
+                "an effect is nested deeper than {MAX_DEPTH} levels"
+            )));
         }
         let symbols = &mut lifter.symbols;
         let change = match effect {

@@ -16,7 +16,7 @@ use lamma_pddl::ast::{ArithmeticOp, AssignOp, Decimal};
 pub(crate) use describe::{compared, formula as describe, sign};
 pub(crate) use resolve::free_variables;
 pub(crate) use rules::lift;
-pub(crate) use symbols::Symbols;
+pub(crate) use symbols::{Range, Symbols};
 
 use crate::numeric::Relation;
 

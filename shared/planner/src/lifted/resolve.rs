@@ -8,8 +8,9 @@ use super::{Expr, Formula, LiftedAtom, LiftedComparison, Symbols, Term, number};
 use crate::ground::GroundError;
 use crate::numeric::Relation;
 
-/// Conditions nested deeper than this are refused; the recursion below is then safe.
-const MAX_DEPTH: usize = 200;
+/// Conditions nested deeper than this are refused; the recursion below is then safe. Text that the parser takes is
+/// never nested so deep.
+pub(super) const MAX_DEPTH: usize = 256;
 
 /// The variables that are visible, and every slot ever given out.
 #[derive(Clone, Debug, Default)]

@@ -97,6 +97,8 @@ impl Lifter {
             let bound = params.iter().chain(&quantified).copied().collect();
             for mut body in self.bodies(condition, &scope, bound, true) {
                 if let Change::Delete(atom) = &change {
+                    // "Deleted if it holds" is "deleted".
+                    body.atoms.retain(|asked| asked != atom);
                     body.atoms.insert(0, atom.clone());
                 }
                 body.atoms.insert(0, reached.clone());

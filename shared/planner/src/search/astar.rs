@@ -24,9 +24,40 @@ struct Node {
     bound: u32,
     /// Where what estimating it said of its successors is kept.
     kept: usize,
+    /// Where the heuristic's findings on it are kept.
+    findings: usize,
 }
 
 const NOT_ESTIMATED: usize = usize::MAX;
+const NO_FINDINGS: usize = usize::MAX;
+/// The part of the memory limit that findings may take; states beyond that are estimated from nothing.
+const FINDINGS_PART: usize = 3;
+
+/// The heuristic's findings on states, each after its length.
+struct Findings {
+    words: Vec<u32>,
+    most: usize,
+}
+
+impl Findings {
+    fn keep(&mut self, findings: &[u32]) -> usize {
+        let start = self.words.len();
+        if findings.is_empty() || (start + findings.len()) * size_of::<u32>() > self.most {
+            return NO_FINDINGS;
+        }
+        self.words.push(findings.len() as u32);
+        self.words.extend_from_slice(findings);
+        start
+    }
+
+    fn at(&self, start: usize) -> &[u32] {
+        &self.words[start + 1..start + 1 + self.words[start] as usize]
+    }
+
+    fn bytes(&self) -> usize {
+        self.words.capacity() * size_of::<u32>()
+    }
+}
 
 impl Node {
     fn f(self) -> u64 {
@@ -78,11 +109,12 @@ pub(super) fn astar(
     meter: &mut Meter<'_>,
 ) -> Slice {
     let mut registry = Registry::new(task);
-    let mut nodes = vec![Node { cost: 0, bound: 0, kept: NOT_ESTIMATED }];
+    let mut nodes = vec![Node { cost: 0, bound: 0, kept: NOT_ESTIMATED, findings: NO_FINDINGS }];
     let mut open = Open::default();
     open.push(StateId(0), nodes[0]);
     // What estimating a state said of its successors, kept for states that went back into the open list.
     let mut kept: Vec<u32> = Vec::new();
+    let mut findings = Findings { words: Vec::new(), most: meter.memory_limit() / FINDINGS_PART };
     let (mut state, mut next) = (task.init.clone(), task.init.clone());
     let (mut applicable, mut bounds, mut preferred) = (Vec::<OperatorId>::new(), Vec::new(), Vec::new());
     while let Some((f, id, cost)) = open.pop() {
@@ -98,14 +130,25 @@ pub(super) fn astar(
         if task.is_goal(&state) {
             return Ok(Progress::Solved(registry.path(id)));
         }
-        let bytes = nodes.capacity() * size_of::<Node>() + kept.capacity() * size_of::<u32>() + open.bytes();
+        let bytes = nodes.capacity() * size_of::<Node>()
+            + kept.capacity() * size_of::<u32>()
+            + open.bytes()
+            + findings.bytes();
         applicable.clear();
         successors.applicable(task, &state, &mut applicable);
         bounds.clear();
         if node.kept == NOT_ESTIMATED {
             meter.check(|| registry.bytes() + bytes)?;
             preferred.clear();
-            let Estimate::Cost(estimate) = heuristic.estimate(&state, &mut preferred) else { continue };
+            let before = registry.origin(id).map(|(parent, by)| (nodes[parent.0 as usize].findings, by));
+            let estimate = match before {
+                Some((at, by)) if at != NO_FINDINGS => {
+                    heuristic.estimate_after(&state, findings.at(at), by, &mut preferred)
+                }
+                _ => heuristic.estimate(&state, &mut preferred),
+            };
+            let Estimate::Cost(estimate) = estimate else { continue };
+            node.findings = findings.keep(heuristic.findings());
             bounds.extend(applicable.iter().map(|&operator| heuristic.bound_after(operator)));
             node.bound = node.bound.max(estimate);
             if node.f() > f {
@@ -128,7 +171,7 @@ pub(super) fn astar(
             let (successor, new) = registry.insert(&next, id, operator);
             let bound = bound.max(node.bound.saturating_sub(units));
             if new {
-                nodes.push(Node { cost, bound, kept: NOT_ESTIMATED });
+                nodes.push(Node { cost, bound, kept: NOT_ESTIMATED, findings: NO_FINDINGS });
             } else {
                 let known = &mut nodes[successor.0 as usize];
                 known.bound = known.bound.max(bound);

@@ -1,11 +1,13 @@
 //! Lazy greedy best-first search with preferred operators and several heuristics: a state is estimated when
 //! it is taken from the open list, its successors inherit its estimate; the queues take turns, those for
 //! preferred operators favoured after progress (Richter & Helmert 2009, "Preferred operators and deferred
-//! evaluation in satisficing planning"; Richter & Westphal 2010, section 5).
+//! evaluation in satisficing planning"; Richter & Westphal 2010, section 5). Where no progress is made the queues are
+//! served alike, and one turn in five goes to a successor picked without trusting the estimates.
 
 use super::limits::Meter;
 use super::open_list::OpenList;
 use super::registry::{Registry, StateId};
+use super::type_buckets::TypeBuckets;
 use super::{Progress, Slice};
 use crate::heuristic::{LandmarkGraph, Relaxation, Status};
 use crate::successor::Successors;
@@ -31,6 +33,10 @@ pub(super) struct LazyGreedy<'a, 't> {
     registry: Registry,
     /// For each heuristic a queue of all successors and one of those by preferred operators.
     queues: [Queue; 4],
+    /// The expanded states by h_FF and depth, and the priority of picking one of them.
+    kinds: TypeBuckets,
+    kinds_priority: i64,
+    depth: Vec<u32>,
     best: [u32; 2],
     preferred: Vec<OperatorId>,
     applicable: Vec<OperatorId>,
@@ -53,6 +59,9 @@ impl<'a, 't> LazyGreedy<'a, 't> {
             status: Status::new(landmarks),
             registry: Registry::new(task),
             queues: Default::default(),
+            kinds: TypeBuckets::default(),
+            kinds_priority: 0,
+            depth: vec![0],
             best: [u32::MAX; 2],
             preferred: Vec::new(),
             applicable: Vec::new(),
@@ -78,6 +87,7 @@ impl<'a, 't> LazyGreedy<'a, 't> {
             if !new {
                 continue;
             }
+            self.depth.push(self.depth[parent.0 as usize] + 1);
             if self.task.is_goal(&next) {
                 return Ok(Progress::Solved(self.registry.path(state)));
             }
@@ -94,20 +104,38 @@ impl<'a, 't> LazyGreedy<'a, 't> {
     /// The bytes in use.
     pub fn bytes(&self) -> usize {
         let open: usize = self.queues.iter().map(|queue| queue.open.bytes()).sum();
-        open + self.registry.bytes() + self.status.bytes()
+        let kinds = self.kinds.bytes() + self.depth.capacity() * size_of::<u32>();
+        open + self.registry.bytes() + self.status.bytes() + kinds
     }
 
+    /// What to look at next; nothing if all successors of all states were.
     fn pop(&mut self) -> Option<(StateId, OperatorId)> {
-        let filled = self.queues.iter_mut().filter(|queue| !queue.open.is_empty());
-        let queue = filled.min_by_key(|queue| queue.priority)?;
+        let filled = (0..self.queues.len()).filter(|&at| !self.queues[at].open.is_empty());
+        let at = filled.min_by_key(|&at| self.queues[at].priority)?;
+        if self.kinds_priority < self.queues[at].priority {
+            self.kinds_priority += 1;
+            if let Some(picked) = self.pick() {
+                return Some(picked);
+            }
+        }
+        let queue = &mut self.queues[at];
         queue.priority += 1;
         queue.open.pop().map(|(_, entry)| entry)
+    }
+
+    /// Some successor of some state.
+    fn pick(&mut self) -> Option<(StateId, OperatorId)> {
+        let state = self.kinds.pick()?;
+        self.applicable.clear();
+        self.successors.applicable(self.task, self.registry.state(state), &mut self.applicable);
+        self.kinds.any(&self.applicable).map(|operator| (state, operator))
     }
 
     fn expand(&mut self, id: StateId, state: &[u64]) {
         self.preferred.clear();
         let Some(estimate) = self.heuristic.hff(state, &mut self.preferred) else { return };
         let landmarks = self.status.count(self.task, self.landmarks, id.0 as usize, state);
+        self.kinds.push((estimate, self.depth[id.0 as usize]), id);
         let estimates = [estimate, landmarks];
         let mut progress = false;
         for (best, &estimate) in self.best.iter_mut().zip(&estimates) {

@@ -2,6 +2,7 @@
 
 mod anytime;
 mod astar;
+mod conflict;
 mod greedy;
 mod improve;
 mod limits;
@@ -10,6 +11,7 @@ mod open_list;
 mod portfolio;
 mod registry;
 mod spread;
+mod type_buckets;
 
 use std::rc::Rc;
 use std::sync::atomic::AtomicBool;
@@ -17,6 +19,7 @@ use std::sync::atomic::AtomicBool;
 use lamma_pddl::ast::{Domain, Problem};
 
 pub use anytime::{Anytime, solve_anytime};
+pub use conflict::never_together;
 pub(crate) use improve::eliminate;
 pub use limits::{Countdown, GaveUp, Limits, Outcome, Unsolvable};
 pub use spread::spread;
@@ -40,7 +43,7 @@ enum Progress {
 type Slice = Result<Progress, GaveUp>;
 
 /// The work, in nodes of the relaxed task looked at, that improving a plan may take by default.
-const IMPROVEMENT_WORK: u64 = 400_000;
+const IMPROVEMENT_WORK: u64 = 200_000;
 
 /// How to search.
 #[derive(Clone, Debug, Default)]
@@ -48,7 +51,7 @@ pub struct SearchOptions {
     /// Which search.
     pub engine: Engine,
     /// States estimated to make the first plan better; zero: only useless actions are dropped. `None`: what
-    /// takes about a millisecond, which is much for household tasks and next to nothing for large ones.
+    /// takes about half a millisecond, which is much for household tasks and next to nothing for large ones.
     pub improvement: Option<u64>,
 }
 

@@ -60,6 +60,12 @@ impl Registry {
         self.origin[state.0 as usize] = (parent, operator.0);
     }
 
+    /// The state that `state` was reached from, and by which operator; `None` for the initial state.
+    pub fn origin(&self, state: StateId) -> Option<(StateId, OperatorId)> {
+        let (parent, operator) = self.origin[state.0 as usize];
+        (operator != NO_OPERATOR).then_some((parent, OperatorId(operator)))
+    }
+
     /// The operators that lead from the initial state to `state`.
     pub fn path(&self, mut state: StateId) -> Vec<OperatorId> {
         let mut path = Vec::new();

@@ -200,6 +200,53 @@ pub fn task(seed: u64) -> (Domain, Problem) {
     (domain, problem)
 }
 
+/// Tasks of actions that do one thing each, often under a condition, so that all hangs on single effects: what
+/// only takes a condition away from another action's effect is needed as well.
+pub fn narrow_task(seed: u64) -> (Domain, Problem) {
+    let (mut domain, mut problem) = task(seed);
+    let mut random = Random(seed ^ 0x5EED);
+    domain.actions = (0..4 + random.below(5))
+        .map(|index| {
+            let scope = if random.chance(40) { vec![("x0".to_string(), "a")] } else { Scope::new() };
+            let mut effects = Vec::new();
+            if random.chance(70) {
+                effects.push(narrow_effect(&mut random, &scope));
+            }
+            if random.chance(60) {
+                let condition = narrow_condition(&mut random, &scope);
+                effects.push(Effect::When(condition, Box::new(narrow_effect(&mut random, &scope))));
+            }
+            let asks = random.chance(50);
+            Action {
+                name: Name::new(format!("act{index}")),
+                agent: None,
+                params: scope.iter().map(|(name, of)| TypedName::new(name.clone(), *of)).collect(),
+                precondition: Condition::And(if asks {
+                    vec![narrow_condition(&mut random, &scope)]
+                } else {
+                    Vec::new()
+                }),
+                effect: Effect::And(effects),
+                duration: None,
+            }
+        })
+        .collect();
+    problem.goal = Condition::And(
+        (0..2 + random.below(2)).map(|_| narrow_condition(&mut random, &Scope::new())).collect(),
+    );
+    (domain, problem)
+}
+
+fn narrow_effect(random: &mut Random, scope: &Scope) -> Effect {
+    let atom = atom(random, scope, &[0, 1, 3]).expect("a scope");
+    if random.chance(50) { Effect::Add(atom) } else { Effect::Delete(atom) }
+}
+
+fn narrow_condition(random: &mut Random, scope: &Scope) -> Condition {
+    let atom = Condition::Atom(atom(random, scope, &[0, 1, 3]).expect("a scope"));
+    if random.chance(50) { atom } else { Condition::Not(Box::new(atom)) }
+}
+
 fn negates_derived(condition: &Condition, positive: bool) -> bool {
     match condition {
         Condition::Atom(atom) => !positive && atom.predicate == "d",

@@ -105,6 +105,17 @@ impl Parser<'_> {
         opening
     }
 
+    /// "with the lights off": a state that is to hold.
+    pub(super) fn state_follows(&self) -> bool {
+        let mut ahead = self.ahead(1);
+        if self.peek() != Some("with") || ahead.phrases(0).is_empty() {
+            return false;
+        }
+        let state = ahead.peek().and_then(|word| self.lexicon.adjective(&[word]));
+        let ends = ahead.word_at(1).is_none_or(|word| [",", ".", "and", "at", "afterwards"].contains(&word));
+        ends && state.is_some_and(|state| state.set.keys().any(|p| p == "isOpen" || p == "isToggled"))
+    }
+
     /// "… so (that) you can put it on the table": an order after all; how many words stand before its verb.
     fn so_you_can_put(&self) -> Option<usize> {
         let person = if self.word_at(1) == Some("that") { 2 } else { 1 };
@@ -124,17 +135,6 @@ impl Parser<'_> {
             && ahead.verbs_here().is_some_and(|(form, verbs, _)| {
                 form == VerbForm::Base && verbs.iter().any(|verb| verb.act != Act::Go)
             })
-    }
-
-    /// "with the lights off": a state that is to hold.
-    pub(super) fn state_follows(&self) -> bool {
-        let mut ahead = self.ahead(1);
-        if self.peek() != Some("with") || ahead.phrases(0).is_empty() {
-            return false;
-        }
-        let state = ahead.peek().and_then(|word| self.lexicon.adjective(&[word]));
-        let ends = ahead.word_at(1).is_none_or(|word| [",", ".", "and", "at", "afterwards"].contains(&word));
-        ends && state.is_some_and(|state| state.set.keys().any(|p| p == "isOpen" || p == "isToggled"))
     }
 
     /// "… . Once it is clean, put it away": what is said first is done first.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::super::syntax::{Phrase, Place, Quantity};
+use super::super::syntax::{Phrase, Place};
 use super::{Discourse, Which};
 
 impl Discourse<'_> {
