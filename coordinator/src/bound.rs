@@ -5,11 +5,15 @@ use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::{Condition, GroundAtom};
 use lamma_planner::heuristic::{Costs, Estimate, Heuristic, LandmarkCut};
-use lamma_planner::{Makespan, MakespanLimits, Milestone, OperatorId, Scheduler, Task};
+use lamma_planner::{Makespan, MakespanLimits, Milestone, OperatorId, Plan, Scheduler, Task};
 
 use crate::problem::joint_problem;
 use crate::team::Team;
 use crate::travel_bound::travel_floor;
+
+/// Sets of agents whose work is looked at for a bound: so many, and fewer where there are many operators.
+const SETS: usize = 32;
+const OPERATORS_IN_ALL_SETS: usize = 50_000;
 
 /// The task of the whole team as one actor, grounded.
 #[derive(Debug)]
@@ -62,6 +66,27 @@ impl JointTask {
             Estimate::DeadEnd => 0,
         };
         Some(depth.max(work.div_ceil(self.members.max(1))))
+    }
+
+    /// A shorter schedule than the plan's, which takes `makespan` steps, and a bound of at least `floor` (a proved
+    /// one). `None` if the goal is out of reach.
+    pub fn improve(
+        &self,
+        plan: &Plan,
+        makespan: u32,
+        floor: u32,
+        limits: &MakespanLimits,
+        cancel: &AtomicBool,
+    ) -> Option<Makespan> {
+        let scheduler = Scheduler::new(&self.task, &self.member_of)?;
+        // A bound above a plan that is known would be a fault of the proof; never print one.
+        let sets = (OPERATORS_IN_ALL_SETS / self.task.operators.len().max(1)).clamp(1, SETS);
+        let floor = floor.max(scheduler.work(sets)).min(makespan);
+        if floor == makespan {
+            return Some(Makespan { lower_bound: Some(floor), schedule: None });
+        }
+        let operators = self.task.trace(plan).unwrap_or_default();
+        Some(scheduler.improve(&operators, makespan, floor, limits, cancel))
     }
 
     /// [`JointTask::floor`], or [`travel_floor`] if that says more.

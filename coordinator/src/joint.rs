@@ -11,7 +11,7 @@ use std::time::Duration;
 use lamma_pddl::ast::{Condition, GroundAtom, Init};
 use lamma_planner::interpreter::{Interpreter, WorldState};
 use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder};
-use lamma_planner::{Limits, MakespanLimits, Outcome, Plan, SearchOptions, Task};
+use lamma_planner::{Countdown, Limits, MakespanLimits, Outcome, Plan, SearchOptions, Task};
 use lamma_protocol::StepIndex;
 
 use crate::allocation::{Allocation, NoAllocation, PackageSpec};
@@ -24,6 +24,11 @@ use crate::team::Team;
 const MEMORY: usize = 3 << 30;
 /// Bounds of each search for a reason: without one, "infeasible" is still true.
 const REASON_EXPANSIONS: u64 = 20_000;
+
+/// What may be spent on a shorter schedule beyond the limits for each operator of the task, and at most: what it
+/// takes to look at a part of a schedule grows with the operators.
+const WORK_PER_OPERATOR: u64 = 1_000;
+const MOST_WORK: u64 = 20_000_000;
 
 /// What there is to plan.
 #[derive(Clone, Debug)]
@@ -58,19 +63,31 @@ pub fn plan_jointly(input: &JointInput, cancel: &AtomicBool) -> Result<JointPlan
     let team = &input.team;
     let gave_up = |why: &dyn std::fmt::Display| NoAllocation::GaveUp(why.to_string());
     let joint = JointTask::new(team, &input.available, &input.facts, &input.goal).map_err(|e| gave_up(&e))?;
-    let plan = search(input, &joint.task, cancel)?;
+    let countdown = Countdown::from(Duration::from_millis(input.time_ms));
+    let plan = search(input, &joint.task, countdown, cancel)?;
     let interpreter = team.interpreter().map_err(|e| gave_up(&e))?;
     let order = explain(input, &interpreter, &plan).map_err(|why| gave_up(&why))?;
-    let (order, bound) = improve(input, &interpreter, &joint, order, cancel);
+    let limits = within(&input.makespan, joint.task.operators.len(), countdown);
+    let (order, bound) = improve(input, &interpreter, &joint, &plan, order, &limits, cancel);
     Ok(handed_out(input, &interpreter, &order, f64::from(bound)))
 }
 
-/// The shortest order found and a proved bound, within the time for it.
+/// The limits for a task of so many operators, and no longer than half of what is left: the plan is still to be
+/// carried out.
+fn within(limits: &MakespanLimits, operators: usize, countdown: Countdown) -> MakespanLimits {
+    let time = [limits.time, countdown.left().map(|left| left / 2)].into_iter().flatten().min();
+    let work = limits.work.saturating_add((operators as u64 * WORK_PER_OPERATOR).min(MOST_WORK));
+    MakespanLimits { time, work, ..limits.clone() }
+}
+
+/// The shortest order found and a proved bound, within the limits.
 fn improve(
     input: &JointInput,
     interpreter: &Interpreter,
     joint: &JointTask,
+    plan: &Plan,
     order: PartialOrder,
+    limits: &MakespanLimits,
     cancel: &AtomicBool,
 ) -> (PartialOrder, u32) {
     let floor = joint.floor().unwrap_or(0);
@@ -83,7 +100,7 @@ fn improve(
     if makespan <= floor {
         return (order, floor);
     }
-    let Some(found) = joint.shortest(&[], floor, Some(makespan), &input.makespan, cancel) else {
+    let Some(found) = joint.improve(plan, makespan, floor, limits, cancel) else {
         return (order, floor);
     };
     let bound = found.lower_bound.unwrap_or(floor).max(floor);
@@ -97,12 +114,13 @@ fn improve(
     }
 }
 
-fn search(input: &JointInput, task: &Task, cancel: &AtomicBool) -> Result<Plan, NoAllocation> {
-    let limits = Limits {
-        time: Some(Duration::from_millis(input.time_ms)),
-        memory_bytes: Some(MEMORY),
-        ..Limits::default()
-    };
+fn search(
+    input: &JointInput,
+    task: &Task,
+    countdown: Countdown,
+    cancel: &AtomicBool,
+) -> Result<Plan, NoAllocation> {
+    let limits = Limits { time: countdown.left(), memory_bytes: Some(MEMORY), ..Limits::default() };
     match lamma_planner::solve(task, &SearchOptions::default(), &limits, cancel) {
         Outcome::Found(plan) => Ok(plan),
         Outcome::GaveUp(why) => Err(NoAllocation::GaveUp(why.to_string())),

@@ -63,7 +63,7 @@ fn reference(task: &Task) -> Result<Reference, String> {
     let facts = world.facts().cloned().collect();
     let joint = JointTask::new(&team, &available, &facts, &goal.condition())?;
     let floor = joint.floor().ok_or("the goal is out of the team's reach")?;
-    let limits = MakespanLimits { conflicts: CONFLICTS, size: SIZE, time: None };
+    let limits = MakespanLimits { conflicts: CONFLICTS, size: SIZE, ..MakespanLimits::default() };
     let never = AtomicBool::new(false);
     let found = joint.shortest(&[], floor, None, &limits, &never).ok_or("the goal is out of the team's reach")?;
     let bound = found.lower_bound.unwrap_or(floor);

@@ -25,8 +25,8 @@ pub use makespan::{Makespan, MakespanLimits, Milestone, Need, Schedule, Schedule
 pub use plan::{GroundAct, Literal, Plan};
 pub use sas::write_sas;
 pub use search::{
-    Anytime, Engine, GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit, never_together, plan,
-    plan_with, relaxed_plan_cost, solve, solve_anytime,
+    Anytime, Countdown, Engine, GaveUp, Limits, Outcome, SearchOptions, Unsolvable, hmax_unit,
+    never_together, plan, plan_with, relaxed_plan_cost, solve, solve_anytime,
 };
 pub use task::{FactId, OperatorId, State, Task};
 pub use travel::Travel;

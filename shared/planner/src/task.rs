@@ -1,5 +1,6 @@
 //! The grounded task: finite-domain variables, operators and axioms; states packed into words.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use lamma_pddl::Name;
@@ -352,6 +353,34 @@ impl Task {
             acts: operators.iter().map(|&operator| self.act(operator)).collect(),
             cost: operators.iter().map(|&operator| self.operators[operator.index()].cost).sum(),
         }
+    }
+
+    /// The operators that carry out a plan from the initial state; `None` if some step has none that applies.
+    pub fn trace(&self, plan: &Plan) -> Option<Vec<OperatorId>> {
+        let object = |name: &Name| self.names.objects.iter().position(|n| n == name).map(|at| at as u32);
+        let mut keys: Vec<(&Name, Vec<u32>)> = Vec::with_capacity(plan.acts.len());
+        for act in &plan.acts {
+            keys.push((&act.action, act.args.iter().map(object).collect::<Option<_>>()?));
+        }
+        let mut called: BTreeMap<(&Name, &[u32]), Vec<OperatorId>> =
+            keys.iter().map(|(name, args)| ((*name, args.as_slice()), Vec::new())).collect();
+        for (index, operator) in self.operators.iter().enumerate() {
+            let (name, params) = &self.names.schemas[operator.schema as usize];
+            let args = &self.names.args[operator.args as usize..operator.args as usize + params];
+            if let Some(same) = called.get_mut(&(name, args)) {
+                same.push(OperatorId(index as u32));
+            }
+        }
+        let (mut state, mut next) = (self.init.clone(), self.init.clone());
+        let mut operators = Vec::with_capacity(keys.len());
+        for (name, args) in &keys {
+            let same = &called[&(*name, args.as_slice())];
+            let operator = *same.iter().find(|&&operator| self.applicable(&state, operator))?;
+            self.apply(&state, operator, &mut next);
+            std::mem::swap(&mut state, &mut next);
+            operators.push(operator);
+        }
+        Some(operators)
     }
 
     /// The atom a fact is about and whether it holds; `None` for facts no text names: a derived condition,

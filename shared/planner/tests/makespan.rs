@@ -9,12 +9,12 @@
 use std::collections::BTreeSet;
 use std::sync::atomic::AtomicBool;
 
-use lamma_pddl::ast::{Condition, GroundAtom, Init, Problem, TypedName};
+use lamma_pddl::ast::{Condition, Domain, GroundAtom, Init, Problem, TypedName};
 use lamma_pddl::{Name, Source, parse_condition, parse_domain};
 use lamma_planner::partial_order::{TeamStep, deorder, deorder_with, literal_effects};
 use lamma_planner::{
     FactId, GroundAct, GroundCondition, GroundLimits, Interpreter, Literal, MakespanLimits, Milestone, Need,
-    OperatorId, Scheduler, Task, WorldState, ground,
+    OperatorId, Plan, Scheduler, Task, WorldState, ground,
 };
 use proptest::prelude::*;
 
@@ -213,6 +213,8 @@ proptest! {
         let bound = found.lower_bound.unwrap();
         if let Some(expected) = expected {
             prop_assert!(f64::from(bound) <= expected, "bound {} above a plan of {}", bound, expected);
+            let work = scheduler.work(16);
+            prop_assert!(f64::from(work) <= expected, "bound by work {} above a plan of {}", work, expected);
         }
         if let Some(schedule) = found.schedule {
             prop_assert_eq!(schedule.makespan(), bound, "the first schedule on the way up meets the bound");
@@ -226,6 +228,170 @@ proptest! {
                 .map_err(|(i, v)| TestCaseError::fail(format!("step {i}: {v}")))?;
             prop_assert!(order.makespan() <= f64::from(bound), "deordered {} of {}", order.makespan(), bound);
         }
+    }
+
+    #[test]
+    fn windows_shorten_plans_and_keep_them_valid(
+        draws in proptest::collection::vec(any::<u8>(), 5..60),
+        wanted in proptest::collection::vec(any::<u8>(), 1..5),
+    ) {
+        let team = Carriers::new();
+        let (acts, end) = team.walk(&draws);
+        let goal = Condition::And(wanted.iter().map(|&w| team.fact(&end, w)).collect());
+        let task = team.task(&goal);
+        let of = team.agents_of(&task);
+        let cancel = AtomicBool::new(false);
+        let Some(scheduler) = Scheduler::new(&task, &of) else {
+            return Err(TestCaseError::fail("the scheduler sees no plan where a walk is one"));
+        };
+        // Grounding has left out operators that nobody can need; so does the walk.
+        let known: BTreeSet<GroundAct> =
+            (0..task.operators.len() as u32).map(|o| task.act(OperatorId(o))).collect();
+        let acts: Vec<GroundAct> = acts.into_iter().filter(|act| known.contains(act)).collect();
+        let plan = task.trace(&Plan { acts, cost: 0.0 }).unwrap();
+        let as_walked = team.makespan(&task, &of, &plan, &goal)?;
+        prop_assert_eq!(scheduler.makespan_of(&plan), Some(as_walked), "two ways of ordering a plan");
+        let limits = MakespanLimits { work: 100_000_000, ..MakespanLimits::default() };
+        let found = scheduler.improve(&plan, as_walked, scheduler.work(16), &limits, &cancel);
+        let bound = found.lower_bound.unwrap();
+        let Some(schedule) = found.schedule else {
+            prop_assert_eq!(bound, as_walked, "neither shorter nor proved shortest");
+            return Ok(());
+        };
+        let shorter: Vec<OperatorId> = schedule.operators().collect();
+        let carried_out = team.makespan(&task, &of, &shorter, &goal)?;
+        prop_assert!(carried_out <= schedule.makespan() && schedule.makespan() < as_walked);
+        prop_assert_eq!(bound, schedule.makespan(), "so small a task is solved and proved");
+        // The proof from below, without plans and windows, agrees.
+        let proved = scheduler.shortest(0, None, &MakespanLimits::default(), &cancel);
+        prop_assert_eq!(proved.schedule.map(|s| s.makespan()), Some(bound));
+    }
+}
+
+const CARRYING: &str = "(define (domain carrying) (:requirements :typing)
+  (:types robot thing place)
+  (:predicates (at ?r - robot ?p - place) (in ?x - thing ?p - place) (holding ?r - robot ?x - thing)
+    (free ?r - robot) (road ?p ?q - place) (open ?p - place) (shut ?p - place) (opener ?r - robot))
+  (:action go :parameters (?r - robot ?p ?q - place) :precondition (and (at ?r ?p) (road ?p ?q) (open ?q))
+    :effect (and (not (at ?r ?p)) (at ?r ?q)))
+  (:action open :parameters (?r - robot ?p ?q - place)
+    :precondition (and (opener ?r) (at ?r ?p) (road ?p ?q) (shut ?q)) :effect (and (open ?q) (not (shut ?q))))
+  (:action shut :parameters (?r - robot ?p ?q - place)
+    :precondition (and (opener ?r) (at ?r ?p) (road ?p ?q) (open ?q)) :effect (and (shut ?q) (not (open ?q))))
+  (:action pick :parameters (?r - robot ?x - thing ?p - place)
+    :precondition (and (at ?r ?p) (in ?x ?p) (free ?r))
+    :effect (and (holding ?r ?x) (not (free ?r)) (not (in ?x ?p))))
+  (:action put :parameters (?r - robot ?x - thing ?p - place)
+    :precondition (and (at ?r ?p) (holding ?r ?x)) :effect (and (in ?x ?p) (free ?r) (not (holding ?r ?x)))))";
+
+/// Robots that carry things along roads; only the first can open and shut places.
+struct Carriers {
+    domain: Domain,
+    objects: Vec<TypedName>,
+    interpreter: Interpreter,
+    init: Vec<Init>,
+    acts: Vec<GroundAct>,
+}
+
+impl Carriers {
+    fn new() -> Self {
+        let (robots, things, places) = (["r1", "r2", "r3"], ["x", "y", "z"], ["a", "b", "c", "d"]);
+        let domain = parse_domain(&Source::new("carrying.pddl", CARRYING)).unwrap().value;
+        let objects = [typed(&robots, "robot"), typed(&things, "thing"), typed(&places, "place")].concat();
+        let mut init = vec![
+            GroundAtom::new("opener", ["r1"]),
+            GroundAtom::new("open", ["a"]),
+            GroundAtom::new("open", ["b"]),
+            GroundAtom::new("open", ["c"]),
+            GroundAtom::new("shut", ["d"]),
+        ];
+        init.extend(robots.iter().zip(places).map(|(r, p)| GroundAtom::new("at", [r, p])));
+        init.extend(robots.iter().map(|r| GroundAtom::new("free", [*r])));
+        init.extend(things.iter().zip(["a", "a", "b"]).map(|(x, p)| GroundAtom::new("in", [x, p])));
+        let roads = [("a", "b"), ("b", "a"), ("b", "c"), ("c", "b"), ("c", "d"), ("d", "c")];
+        init.extend(roads.map(|(p, q)| GroundAtom::new("road", [p, q])));
+        let mut acts = Vec::new();
+        for r in robots {
+            for (p, q) in roads {
+                acts.extend(["go", "open", "shut"].map(|name| GroundAct::new(name, [r, p, q])));
+            }
+            for p in places {
+                acts.extend(things.map(|x| GroundAct::new("pick", [r, x, p])));
+                acts.extend(things.map(|x| GroundAct::new("put", [r, x, p])));
+            }
+        }
+        let interpreter = Interpreter::new(&domain, &objects).unwrap();
+        let init = init.into_iter().map(Init::Fact).collect();
+        Carriers { domain, objects, interpreter, init, acts }
+    }
+
+    /// A walk: each draw picks from the acts that apply. With the state it leads to.
+    fn walk(&self, draws: &[u8]) -> (Vec<GroundAct>, WorldState) {
+        let mut state = self.interpreter.initial(&self.init).unwrap();
+        let mut done = Vec::new();
+        for &draw in draws {
+            let ways: Vec<(&GroundAct, WorldState)> = self
+                .acts
+                .iter()
+                .filter_map(|act| {
+                    let mut next = state.clone();
+                    let action = self.interpreter.instantiate(act).ok()?;
+                    self.interpreter.apply(&mut next, &action).ok()?;
+                    Some((act, next))
+                })
+                .collect();
+            let (act, next) = ways[usize::from(draw) % ways.len()].clone();
+            done.push(act.clone());
+            state = next;
+        }
+        (done, state)
+    }
+
+    /// A fact of the state that could be otherwise.
+    fn fact(&self, state: &WorldState, draw: u8) -> Condition {
+        let facts: Vec<&GroundAtom> =
+            state.facts.iter().filter(|f| f.predicate != "road" && f.predicate != "opener").collect();
+        parse_condition(&facts[usize::from(draw) % facts.len()].to_string()).unwrap()
+    }
+
+    fn task(&self, goal: &Condition) -> Task {
+        let problem = Problem {
+            name: Name::new("p"),
+            domain: Name::new("carrying"),
+            objects: self.objects.clone(),
+            init: self.init.clone(),
+            goal: goal.clone(),
+            metric: None,
+        };
+        ground(&self.domain, &problem, &GroundLimits::default()).unwrap()
+    }
+
+    fn agents_of(&self, task: &Task) -> Vec<u32> {
+        let of = |o: u32| ["r1", "r2", "r3"].iter().position(|r| task.act(OperatorId(o)).args[0] == *r);
+        (0..task.operators.len() as u32).map(|o| of(o).unwrap() as u32).collect()
+    }
+
+    /// How long the plan takes on the plain semantics.
+    fn makespan(
+        &self,
+        task: &Task,
+        of: &[u32],
+        plan: &[OperatorId],
+        goal: &Condition,
+    ) -> Result<u32, TestCaseError> {
+        let step = |&o: &OperatorId| {
+            let action = self.interpreter.instantiate(&task.act(o)).unwrap();
+            TeamStep { agent: of[o.index()] as usize, action }
+        };
+        let initial = self.interpreter.initial(&self.init).unwrap();
+        let goal = self.interpreter.ground_condition(goal).unwrap();
+        let order = deorder(&self.interpreter, &initial, plan.iter().map(step).collect(), &goal, &[])
+            .map_err(|(i, v)| TestCaseError::fail(format!("step {i}: {v}")))?;
+        let end = order.steps.iter().try_fold(initial, |mut state, step| {
+            self.interpreter.apply(&mut state, &step.action).map(|_| state)
+        });
+        prop_assert!(self.interpreter.holds(&end.unwrap(), &goal), "the plan misses the goal");
+        Ok(order.makespan() as u32)
     }
 }
 

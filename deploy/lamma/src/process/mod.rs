@@ -272,10 +272,13 @@ impl Author for Reader {
 /// gives the same plan on every machine.
 fn makespan_limits(spec: &RunSpec) -> MakespanLimits {
     match spec.makespan_ms {
-        None => MakespanLimits { conflicts: 1_000, size: 1_000_000, time: None },
-        Some(ms) => {
-            MakespanLimits { conflicts: u64::MAX, size: 50_000_000, time: Some(Duration::from_millis(ms)) }
-        }
+        None => MakespanLimits { conflicts: 1_000, size: 1_000_000, ..MakespanLimits::default() },
+        Some(ms) => MakespanLimits {
+            conflicts: u64::MAX,
+            size: 50_000_000,
+            work: u64::MAX,
+            time: Some(Duration::from_millis(ms)),
+        },
     }
 }
 

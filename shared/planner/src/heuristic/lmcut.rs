@@ -151,6 +151,12 @@ impl Wave {
 impl<'a> LandmarkCut<'a> {
     /// Prepares the heuristic.
     pub fn new(task: &'a Task, costs: Costs) -> Self {
+        let operators = (0..task.operators.len() as u32).map(OperatorId);
+        Self::with_costs(task, operators.map(|operator| costs.of(task, operator)))
+    }
+
+    /// Prepares the heuristic for other costs of the operators, in their order.
+    pub fn with_costs(task: &'a Task, costs: impl Iterator<Item = u32>) -> Self {
         let graph = Graph::complete(task);
         let count = graph.operator_of.len();
         let pairs =
@@ -159,8 +165,7 @@ impl<'a> LandmarkCut<'a> {
         let real = (0..count).filter(|&node| graph.operator_of[node] != NO_NODE);
         let nodes_of =
             Csr::from_pairs(task.operators.len(), real.map(|node| (graph.operator_of[node], node as u32)));
-        let operators = (0..task.operators.len() as u32).map(OperatorId);
-        let full_cost: Vec<u32> = operators.map(|operator| costs.of(task, operator)).chain([0]).collect();
+        let full_cost: Vec<u32> = costs.chain([0]).collect();
         let axioms = task.operators.len() as u32;
         let fresh: Vec<Node> = (0..count)
             .map(|node| Node {
@@ -191,6 +196,17 @@ impl<'a> LandmarkCut<'a> {
             cuts: Vec::new(),
             graph,
         }
+    }
+
+    /// Other costs from now on.
+    pub(crate) fn set_costs(&mut self, costs: impl Iterator<Item = u32>) {
+        self.full_cost.iter_mut().zip(costs).for_each(|(own, cost)| *own = cost);
+    }
+
+    /// The operators that were counted for the state looked at last.
+    pub(crate) fn counted(&self) -> impl Iterator<Item = OperatorId> {
+        let operators = (0..self.task.operators.len() as u32).map(OperatorId);
+        operators.filter(|o| self.cost[o.index()] < self.full_cost[o.index()])
     }
 
     /// The dearest goal: what supports reaching all of them.

@@ -124,6 +124,16 @@ impl<'a> Relaxation<'a> {
         }
     }
 
+    /// Other costs of operators from now on.
+    pub(crate) fn set_costs(&mut self, costs: impl Fn(OperatorId) -> u32) {
+        for (cost, &operator) in self.plain.iter_mut().zip(&self.graph.operator_of) {
+            if operator != NO_NODE {
+                *cost = costs(OperatorId(operator));
+            }
+        }
+        self.base.copy_from_slice(&self.plain);
+    }
+
     /// Works out the costs of facts, until all goals are final or (`exhaustive`) everything is reached.
     /// `MAX`: a node costs as much as its dearest condition; else as all of them together.
     fn propagate<const MAX: bool>(&mut self, state: &[u64], exhaustive: bool) {

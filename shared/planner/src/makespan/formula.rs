@@ -10,6 +10,7 @@
 //! strictly before who relies on them, and whoever might undo a link lies outside it or has an excuse.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use super::layers::Layer;
 use super::model::{Lit, Maker, Model, Threat};
@@ -30,11 +31,12 @@ struct Variables {
     events: Vec<Bool>,
 }
 
-/// The formula for schedules with these layers; `None` if it gets too large or takes too long.
+/// The formula for schedules with these layers that lead to `goal`; `None` if it gets too large or takes too long.
 pub(super) fn formula(
     model: &Model,
     together: &Together,
     layers: &[Layer],
+    goal: &[Lit],
     fuel: &Fuel<'_>,
 ) -> Option<Formula> {
     let mut clauses = Clauses::new();
@@ -59,6 +61,7 @@ pub(super) fn formula(
             together,
             layer: &layers[step],
             own: &variables[step],
+            threateners: BTreeMap::new(),
             one_of: BTreeMap::new(),
             threatening: BTreeMap::new(),
             relying: BTreeMap::new(),
@@ -71,7 +74,7 @@ pub(super) fn formula(
         }
     }
     let last = layers.len() - 1;
-    for goal in &model.goal {
+    for goal in goal {
         let at = layers[last].lits.binary_search(goal).ok();
         clauses.clause(at.map(|at| variables[last].lits[at]));
     }
@@ -123,6 +126,8 @@ struct Step<'a> {
     model: &'a Model,
     layer: &'a Layer,
     own: &'a Variables,
+    /// Whose operators of this step might undo a literal.
+    threateners: BTreeMap<Lit, Rc<[u32]>>,
     together: &'a Together,
     /// For a set of operators: one of it is done.
     one_of: BTreeMap<usize, Bool>,
@@ -179,7 +184,7 @@ impl Step<'_> {
         if let Some(&known) = self.relying.get(&(lit, agent)) {
             return Some(known);
         }
-        let others: Vec<u32> = self.threatening_agents(lit).into_iter().filter(|&a| a != agent).collect();
+        let others: Vec<u32> = self.threatening_agents(lit).iter().copied().filter(|&a| a != agent).collect();
         if others.is_empty() {
             self.relying.insert((lit, agent), holds);
             return Some(holds);
@@ -194,7 +199,10 @@ impl Step<'_> {
         Some(relies)
     }
 
-    fn threatening_agents(&self, lit: Lit) -> Vec<u32> {
+    fn threatening_agents(&mut self, lit: Lit) -> Rc<[u32]> {
+        if let Some(known) = self.threateners.get(&lit) {
+            return Rc::clone(known);
+        }
         let threats = self.model.threats[lit.index()].iter();
         let mut agents: Vec<u32> = threats
             .filter(|t| self.operator(t.operator).is_some())
@@ -202,6 +210,8 @@ impl Step<'_> {
             .collect();
         agents.sort_unstable();
         agents.dedup();
+        let agents: Rc<[u32]> = agents.into();
+        self.threateners.insert(lit, Rc::clone(&agents));
         agents
     }
 
@@ -247,6 +257,14 @@ impl Step<'_> {
     /// Nothing in the step may undo the literal, unless the same action makes it good.
     fn keep(&mut self, lit: Lit, variable: Bool) {
         let model = self.model;
+        if model.events.is_empty() {
+            // Nothing makes good and nothing excuses: whoever threatens undoes.
+            for &agent in self.threatening_agents(lit).iter() {
+                let threatens = self.threatens(lit, agent);
+                self.clauses.clause([!variable, !threatens]);
+            }
+            return;
+        }
         let mut kept_from: Vec<u32> = Vec::new();
         for threat in model.threats[lit.index()].iter() {
             let Some(operator) = self.operator(threat.operator) else { continue };

@@ -4,7 +4,6 @@
 //! graph analysis", AIJ 90, 1997), without mutexes. Backwards: what the goal may still need.
 
 use super::model::{Lit, Maker, Model};
-use super::relevance::Relevance;
 use crate::csr::Csr;
 
 /// Never reached.
@@ -16,7 +15,23 @@ pub(super) struct Reach {
     pub lits: Vec<u32>,
     pub operators: Vec<u32>,
     pub events: Vec<u32>,
-    waiting: Csr<u32>,
+}
+
+/// What waits for what: the same wherever a schedule begins. Nodes wait for literals: operators first, then
+/// events, then derivations.
+#[derive(Debug)]
+pub(super) struct Waiting {
+    nodes: Csr<u32>,
+    /// How many conditions each node has; an event waits for its operator, too.
+    missing: Vec<u32>,
+    /// What operators and events make true.
+    makes: Csr<Lit>,
+    /// What each derivation makes true.
+    heads: Vec<Lit>,
+    /// Operators without preconditions.
+    ready: Vec<u32>,
+    /// What derivations with an empty body give holds from the start.
+    given: Vec<Lit>,
 }
 
 /// What may hold before step `t` and what may be done in it, for a schedule of a certain length.
@@ -30,8 +45,7 @@ pub(super) struct Layer {
     pub events: Vec<u32>,
 }
 
-/// Nodes wait for literals: operators first, then events, then derivations.
-impl Reach {
+impl Waiting {
     pub fn new(model: &Model) -> Self {
         let operators = model.preconditions.len();
         let derivations: Vec<(Lit, &Vec<Lit>)> = model
@@ -48,94 +62,131 @@ impl Reach {
             .iter()
             .enumerate()
             .flat_map(|(node, lits)| lits.iter().map(move |lit| (lit.0, node as u32)));
-        let waiting = Csr::from_pairs(model.literals_count(), pairs);
+        let nodes = Csr::from_pairs(model.literals_count(), pairs);
         let mut missing: Vec<u32> = conditions.iter().map(|lits| lits.len() as u32).collect();
-        // An event waits for its operator, too.
         model.events.iter().enumerate().for_each(|(event, _)| missing[operators + event] += 1);
-        let mut makes: Vec<Vec<Lit>> = vec![Vec::new(); operators + model.events.len()];
-        for (lit, makers) in model.makers.iter().enumerate() {
-            for maker in makers {
-                match *maker {
-                    Maker::Operator(o) => makes[o as usize].push(Lit(lit as u32)),
-                    Maker::Event(e) => makes[operators + e as usize].push(Lit(lit as u32)),
-                }
-            }
+        let made = model.makers.iter().enumerate().flat_map(|(lit, makers)| {
+            makers.iter().map(move |maker| match *maker {
+                Maker::Operator(o) => (o, Lit(lit as u32)),
+                Maker::Event(e) => (operators as u32 + e, Lit(lit as u32)),
+            })
+        });
+        Waiting {
+            nodes,
+            makes: Csr::from_pairs(operators + model.events.len(), made),
+            heads: derivations.iter().map(|(head, _)| *head).collect(),
+            ready: (0..operators as u32).filter(|&o| missing[o as usize] == 0).collect(),
+            given: derivations.iter().filter(|(_, body)| body.is_empty()).map(|(head, _)| *head).collect(),
+            missing,
         }
+    }
+}
+
+impl Reach {
+    /// From where the literals of `start` hold, for at most `steps` steps.
+    pub fn new(model: &Model, waiting: &Waiting, start: impl Fn(Lit) -> bool, steps: u32) -> Self {
+        let operators = model.preconditions.len();
         let mut reach = Reach {
             lits: vec![NEVER; model.literals_count()],
             operators: vec![NEVER; operators],
             events: vec![NEVER; model.events.len()],
-            waiting,
         };
+        let mut missing = waiting.missing.clone();
         let mut current: Vec<Lit> =
-            (0..model.literals_count() as u32).map(Lit).filter(|l| model.initially[l.index()]).collect();
-        // What derivations with an empty body give holds from the start.
-        current.extend(derivations.iter().filter(|(_, body)| body.is_empty()).map(|(head, _)| *head));
-        let mut ready: Vec<u32> = (0..operators as u32).filter(|&o| missing[o as usize] == 0).collect();
+            (0..model.literals_count() as u32).map(Lit).filter(|&lit| start(lit)).collect();
+        current.extend(&waiting.given);
+        let mut ready = waiting.ready.clone();
         let mut layer = 0;
         loop {
-            // The literals of this layer, with what follows from them at once.
-            let mut at = 0;
-            while at < current.len() {
-                let lit = current[at];
-                at += 1;
-                if reach.lits[lit.index()] != NEVER {
-                    continue;
-                }
-                reach.lits[lit.index()] = layer;
-                for &node in reach.waiting.row(lit.index()) {
-                    missing[node as usize] -= 1;
-                    if missing[node as usize] > 0 {
-                        continue;
-                    }
-                    match (node as usize).checked_sub(makes.len()) {
-                        Some(derivation) => current.push(derivations[derivation].0),
-                        None => ready.push(node),
-                    }
-                }
-            }
-            current.clear();
-            if ready.is_empty() {
+            reach.hold(waiting, &mut current, &mut ready, &mut missing, layer);
+            if ready.is_empty() || layer == steps {
                 return reach;
             }
-            let mut at = 0;
-            while at < ready.len() {
-                let node = ready[at] as usize;
-                at += 1;
-                current.extend(makes[node].iter().filter(|l| reach.lits[l.index()] == NEVER));
-                if node >= operators {
-                    reach.events[node - operators] = layer;
-                    continue;
-                }
-                reach.operators[node] = layer;
-                for event in model.events_of[node].clone() {
-                    let waits = &mut missing[operators + event as usize];
-                    *waits -= 1;
-                    if *waits == 0 {
-                        ready.push(operators as u32 + event);
-                    }
-                }
-            }
-            ready.clear();
+            reach.act(model, waiting, &mut current, &mut ready, &mut missing, layer);
             layer += 1;
         }
     }
 
-    /// The first layer that has the whole goal; [`NEVER`] if none does.
-    pub fn goal(&self, model: &Model) -> u32 {
-        model.goal.iter().map(|lit| self.lits[lit.index()]).max().unwrap_or(0)
+    /// The literals of this layer, with what follows from them at once; what then waits no more is `ready`.
+    fn hold(
+        &mut self,
+        waiting: &Waiting,
+        current: &mut Vec<Lit>,
+        ready: &mut Vec<u32>,
+        missing: &mut [u32],
+        layer: u32,
+    ) {
+        let acting = waiting.makes.len();
+        let mut at = 0;
+        while at < current.len() {
+            let lit = current[at];
+            at += 1;
+            if self.lits[lit.index()] != NEVER {
+                continue;
+            }
+            self.lits[lit.index()] = layer;
+            for &node in waiting.nodes.row(lit.index()) {
+                missing[node as usize] -= 1;
+                if missing[node as usize] > 0 {
+                    continue;
+                }
+                match (node as usize).checked_sub(acting) {
+                    Some(derivation) => current.push(waiting.heads[derivation]),
+                    None => ready.push(node),
+                }
+            }
+        }
+        current.clear();
     }
 
-    /// The layers of a schedule of `steps` steps: what its goal may need and its start may give.
-    pub fn layers(&self, model: &Model, relevance: &Relevance, steps: u32) -> Vec<Layer> {
+    /// What is `ready` happens in this layer; `current` becomes what that makes true.
+    fn act(
+        &mut self,
+        model: &Model,
+        waiting: &Waiting,
+        current: &mut Vec<Lit>,
+        ready: &mut Vec<u32>,
+        missing: &mut [u32],
+        layer: u32,
+    ) {
+        let operators = self.operators.len();
+        let mut at = 0;
+        while at < ready.len() {
+            let node = ready[at] as usize;
+            at += 1;
+            current.extend(waiting.makes.row(node).iter().filter(|l| self.lits[l.index()] == NEVER));
+            if node >= operators {
+                self.events[node - operators] = layer;
+                continue;
+            }
+            self.operators[node] = layer;
+            for event in model.events_of[node].clone() {
+                let waits = &mut missing[operators + event as usize];
+                *waits -= 1;
+                if *waits == 0 {
+                    ready.push(operators as u32 + event);
+                }
+            }
+        }
+        ready.clear();
+    }
+
+    /// The first layer that has the whole goal; [`NEVER`] if none does.
+    pub fn goal(&self, goal: &[Lit]) -> u32 {
+        goal.iter().map(|lit| self.lits[lit.index()]).max().unwrap_or(0)
+    }
+
+    /// The layers of a schedule of `steps` steps: what its goal may need and its start may give, with the
+    /// operators that are `allowed`.
+    pub fn layers(&self, model: &Model, goal: &[Lit], allowed: &[bool], steps: u32) -> Vec<Layer> {
         let mut layers = Vec::with_capacity(steps as usize + 1);
         let mut needed = Needed::new(model.literals_count());
-        model.goal.iter().for_each(|&lit| needed.add(lit));
+        goal.iter().for_each(|&lit| needed.add(lit));
         self.close(model, &mut needed, &[], steps);
         layers.push(Layer { lits: needed.take(), operators: Vec::new(), events: Vec::new() });
         for step in (0..steps).rev() {
             let after: &Layer = &layers[layers.len() - 1];
-            let (operators, events) = self.step(model, relevance, &after.lits, step);
+            let (operators, events) = self.step(model, allowed, &after.lits, step);
             let lasting = after.lits.iter().filter(|l| !model.is_derived(**l));
             lasting.filter(|l| self.lits[l.index()] <= step).for_each(|&lit| needed.add(lit));
             for &operator in &operators {
@@ -155,11 +206,11 @@ impl Reach {
     }
 
     /// What may make these literals true in a step.
-    fn step(&self, model: &Model, relevance: &Relevance, lits: &[Lit], step: u32) -> (Vec<u32>, Vec<u32>) {
+    fn step(&self, model: &Model, allowed: &[bool], lits: &[Lit], step: u32) -> (Vec<u32>, Vec<u32>) {
         let (mut operators, mut events) = (Vec::new(), Vec::new());
         for lit in lits {
             let makers = model.makers[lit.index()].iter();
-            for maker in makers.filter(|&&m| relevance.operators[model.operator_of(m) as usize]) {
+            for maker in makers.filter(|&&m| allowed[model.operator_of(m) as usize]) {
                 match *maker {
                     Maker::Operator(o) if self.operators[o as usize] <= step => operators.push(o),
                     Maker::Event(e) if self.events[e as usize] <= step => {
@@ -179,6 +230,9 @@ impl Reach {
 
     /// Adds why the operators might do the literal no harm.
     fn excuse(&self, model: &Model, needed: &mut Needed, lit: Lit, operators: &[u32], layer: u32) {
+        if model.events.is_empty() {
+            return;
+        }
         let threats = model.threats[lit.index()].iter().filter(|t| !t.harmless_if.is_empty());
         for threat in threats.filter(|t| operators.binary_search(&t.operator).is_ok()) {
             let possible = threat.harmless_if.iter().filter(|l| self.lits[l.index()] <= layer);

@@ -7,24 +7,34 @@
 //! that no plan of the team is so short.
 
 mod formula;
+mod improve;
 mod layers;
 mod milestones;
 mod model;
+mod order;
 mod relevance;
 mod sat;
 mod together;
+mod windows;
+mod work;
 
 use std::sync::atomic::AtomicBool;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::search::eliminate;
 use crate::task::{OperatorId, Task};
-use layers::{NEVER, Reach};
+use layers::{NEVER, Reach, Waiting};
 pub use milestones::{Milestone, Need};
-use model::Model;
+use model::{Lit, Model};
+use order::Order;
 use relevance::Relevance;
 use sat::{Found, Fuel, is_true};
 use together::Together;
+use windows::leads_to;
+use work::Work;
+
+/// An operator in a step makes at least so many literals in a formula.
+const LITERALS_PER_OPERATOR: u64 = 8;
 
 /// How much may be spent. The first two are the same on every machine.
 #[derive(Clone, Debug)]
@@ -33,13 +43,16 @@ pub struct MakespanLimits {
     pub conflicts: u64,
     /// Literals of a formula: about 20 bytes and, to build and load, 50 ns each.
     pub size: u64,
+    /// Work on making a known plan shorter: literals of formulas, and what the solver looks at. A million takes
+    /// about 0.13 s.
+    pub work: u64,
     /// Time on the clock.
     pub time: Option<Duration>,
 }
 
 impl Default for MakespanLimits {
     fn default() -> Self {
-        MakespanLimits { conflicts: 20_000, size: 4_000_000, time: None }
+        MakespanLimits { conflicts: 20_000, size: 4_000_000, work: 500_000, time: None }
     }
 }
 
@@ -76,10 +89,17 @@ pub struct Makespan {
 pub struct Scheduler<'a> {
     task: &'a Task,
     model: Model,
+    waiting: Waiting,
     reach: Reach,
-    relevance: Relevance,
+    /// Operators that a shortest schedule may need.
+    relevant: Vec<bool>,
     together: Together,
+    /// Parts of the goal come one after the other.
+    ordered: bool,
 }
+
+/// Operators, step by step.
+type Steps = Vec<Vec<OperatorId>>;
 
 /// What there is to say about schedules of some length.
 enum Answer {
@@ -101,21 +121,29 @@ impl<'a> Scheduler<'a> {
             return None;
         }
         let mut model = Model::new(task, agent_of);
-        if milestones.iter().any(|milestone| !milestone.after.is_empty()) {
+        let ordered = milestones.iter().any(|milestone| !milestone.after.is_empty());
+        if ordered {
             model.put_in_order(task, milestones);
         }
-        let reach = Reach::new(&model);
-        if reach.goal(&model) == NEVER {
+        let waiting = Waiting::new(&model);
+        let reach = Reach::new(&model, &waiting, |lit| model.initially[lit.index()], u32::MAX);
+        if reach.goal(&model.goal) == NEVER {
             return None;
         }
-        let relevance = Relevance::new(&model);
-        let together = Together::new(&model);
-        Some(Scheduler { task, model, reach, relevance, together })
+        let relevant = Relevance::new(&model).operators;
+        // Without conditional effects, what an agent may do to a literal is one variable anyway.
+        let together = if model.events.is_empty() { Together::default() } else { Together::new(&model) };
+        Some(Scheduler { task, model, waiting, reach, relevant, together, ordered })
     }
 
     /// The depth of the joint relaxed planning graph: no schedule is shorter.
     pub fn depth(&self) -> u32 {
-        self.reach.goal(&self.model)
+        self.reach.goal(&self.model.goal)
+    }
+
+    /// A lower bound from the work there is, by looking at no more than `sets` sets of agents.
+    pub fn work(&self, sets: usize) -> u32 {
+        Work::new(self.task, &self.model, &self.reach).bound(sets)
     }
 
     /// Looks for the shortest schedule among those of at least `from` and less than `below` steps; `from` must be
@@ -129,9 +157,10 @@ impl<'a> Scheduler<'a> {
         limits: &MakespanLimits,
         cancel: &AtomicBool,
     ) -> Makespan {
-        let deadline = limits.time.and_then(|time| Instant::now().checked_add(time));
         let down = below.map_or(0, |_| limits.conflicts / 2);
-        let mut fuel = Fuel { conflicts: limits.conflicts - down, size: limits.size, deadline, cancel };
+        let mut fuel = Fuel::new(limits, cancel);
+        fuel.conflicts -= down;
+        fuel.work = u64::MAX;
         let mut bound = from.max(self.depth());
         let end = below.unwrap_or(u32::MAX);
         while bound < end {
@@ -160,43 +189,62 @@ impl<'a> Scheduler<'a> {
     }
 
     fn of_length(&self, steps: u32, fuel: &mut Fuel<'_>) -> Answer {
-        if self.reach.goal(&self.model) > steps {
+        if self.reach.goal(&self.model.goal) > steps {
             return Answer::None;
         }
         if fuel.stopped() {
             return Answer::Unknown;
         }
-        let layers = self.reach.layers(&self.model, &self.relevance, steps);
-        let Some(formula) = formula::formula(&self.model, &self.together, &layers, fuel) else {
-            return Answer::Unknown;
-        };
-        match formula.clauses.solve(fuel) {
+        match self.span(&self.reach, &self.model.goal, &self.relevant, steps, fuel) {
             (Found::Contradiction, _) => Answer::None,
             (Found::Stopped, _) => Answer::Unknown,
-            (Found::Model, model) => {
-                let chosen = |step: &Vec<(u32, sat::Bool)>| {
-                    let done = step.iter().filter(|(_, variable)| is_true(&model, *variable));
-                    done.map(|&(operator, _)| OperatorId(operator)).collect::<Vec<_>>()
-                };
-                self.checked(formula.operators.iter().map(chosen).collect())
-            }
+            (Found::Model, steps) => self.checked(steps),
         }
+    }
+
+    /// The formula for a stretch of so many steps, from where `reach` begins to `goal`, with the operators that
+    /// are `allowed`.
+    fn span(
+        &self,
+        reach: &Reach,
+        goal: &[Lit],
+        allowed: &[bool],
+        steps: u32,
+        fuel: &mut Fuel<'_>,
+    ) -> (Found, Steps) {
+        let layers = reach.layers(&self.model, goal, allowed, steps);
+        let operators: usize = layers.iter().map(|layer| layer.operators.len()).sum();
+        if operators as u64 * LITERALS_PER_OPERATOR > fuel.size {
+            return (Found::Stopped, Steps::new());
+        }
+        let Some(formula) = formula::formula(&self.model, &self.together, &layers, goal, fuel) else {
+            return (Found::Stopped, Steps::new());
+        };
+        let (found, model) = formula.clauses.solve(fuel);
+        let chosen = |step: &Vec<(u32, sat::Bool)>| {
+            let done = step.iter().filter(|(_, variable)| is_true(&model, *variable));
+            done.map(|&(operator, _)| OperatorId(operator)).collect::<Vec<_>>()
+        };
+        (found, formula.operators.iter().map(chosen).collect())
+    }
+
+    /// The steps a linear plan takes if everybody acts as soon as the others' actions allow. Only for tasks
+    /// without conditional effects, derived facts and numbers.
+    pub fn makespan_of(&self, plan: &[OperatorId]) -> Option<u32> {
+        self.is_plain().then(|| Order::new(self.task, &self.model.agent_of, plan.to_vec()).makespan)
+    }
+
+    /// Whether operators do the same wherever they apply.
+    fn is_plain(&self) -> bool {
+        let unconditional = self.model.events.is_empty() && self.model.derivations.is_empty();
+        unconditional && !self.ordered && !self.task.has_numbers()
     }
 
     /// The schedule without its idle actions, if it leads to the goal: what the formula does not know about
     /// derived facts may make it wrong.
     fn checked(&self, steps: Vec<Vec<OperatorId>>) -> Answer {
         let plan: Vec<OperatorId> = steps.iter().flatten().copied().collect();
-        let mut state = self.task.init.clone();
-        let mut next = state.clone();
-        for &operator in &plan {
-            if !self.task.applicable(&state, operator) {
-                return Answer::Unknown;
-            }
-            self.task.apply(&state, operator, &mut next);
-            std::mem::swap(&mut state, &mut next);
-        }
-        if !self.task.is_goal(&state) {
+        if !leads_to(self.task, &self.task.init, &plan, &self.task.goal) {
             return Answer::Unknown;
         }
         let mut once: Vec<u32> = plan.iter().map(|o| o.0).collect();

@@ -142,8 +142,16 @@ impl Model {
         a != b && variable(a).is_some() && variable(a) == variable(b)
     }
 
+    /// Whether the literal holds in a state.
+    pub fn holds(&self, task: &Task, state: &[u64], lit: Lit) -> bool {
+        match lit.index().checked_sub(self.facts) {
+            None => task.holds(state, FactId(lit.0)),
+            Some(fact) => !task.holds(state, FactId(fact as u32)),
+        }
+    }
+
     /// The facts as conditions; what needs no support is left out.
-    fn literals(&self, facts: &[FactId]) -> Vec<Lit> {
+    pub fn literals(&self, facts: &[FactId]) -> Vec<Lit> {
         facts.iter().filter(|fact| !self.free[fact.index()]).map(|fact| Lit(fact.0)).collect()
     }
 

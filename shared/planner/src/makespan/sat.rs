@@ -4,6 +4,7 @@ use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use super::MakespanLimits;
 use batsat::{Callbacks, ClauseKind, Lit, Solver, SolverInterface, SolverOpts, Var, lbool};
 
 /// A literal of the formula.
@@ -26,11 +27,44 @@ pub(super) struct Fuel<'a> {
     pub conflicts: u64,
     /// Literals in all clauses of a formula.
     pub size: u64,
+    /// Literals of all formulas, and what the solver looks at.
+    pub work: u64,
     pub deadline: Option<Instant>,
     pub cancel: &'a AtomicBool,
 }
 
-impl Fuel<'_> {
+impl<'a> Fuel<'a> {
+    pub fn new(limits: &MakespanLimits, cancel: &'a AtomicBool) -> Self {
+        let deadline = limits.time.and_then(|time| Instant::now().checked_add(time));
+        Fuel { conflicts: limits.conflicts, size: limits.size, work: limits.work, deadline, cancel }
+    }
+
+    /// Does something that may use no more than so many conflicts, with formulas in proportion.
+    pub fn for_window<T>(&mut self, conflicts: u64, what: impl FnOnce(&mut Self) -> T) -> T {
+        let given = conflicts.min(self.conflicts);
+        let all = std::mem::replace(&mut self.conflicts, given);
+        let smaller = self.size.min(conflicts.saturating_mul(SIZE_PER_CONFLICT));
+        let size = std::mem::replace(&mut self.size, smaller);
+        let result = what(self);
+        self.size = size;
+        self.conflicts = all - (given - self.conflicts);
+        result
+    }
+
+    /// Does something that may use no more than so much work.
+    pub fn slice<T>(&mut self, work: u64, what: impl FnOnce(&mut Self) -> T) -> T {
+        let given = work.min(self.work);
+        let all = std::mem::replace(&mut self.work, given);
+        let result = what(self);
+        self.work = all - (given - self.work);
+        result
+    }
+
+    /// Whether nothing more can be done.
+    pub fn is_empty(&self) -> bool {
+        self.conflicts == 0 || self.work == 0 || self.stopped()
+    }
+
     pub fn stopped(&self) -> bool {
         self.cancel.load(Ordering::Relaxed) || self.deadline.is_some_and(|d| Instant::now() >= d)
     }
@@ -39,11 +73,18 @@ impl Fuel<'_> {
 /// Decisions and conflicts between two looks at the clock.
 const LOOK: u32 = 256;
 
+/// How many assignments the solver propagates for a conflict, roughly.
+const LOOKS_PER_CONFLICT: u64 = 1_000;
+
+/// Literals that the formula of a window may have for each conflict that may be spent on it.
+const SIZE_PER_CONFLICT: u64 = 1_000;
+
 /// Clauses loaded between two looks at the clock.
 const LOAD: usize = 1 << 16;
 
 struct Watch<'a> {
     conflicts: u64,
+    limit: u64,
     fuel: &'a Fuel<'a>,
     ticks: Cell<u32>,
     stopped: Cell<bool>,
@@ -62,7 +103,7 @@ impl Callbacks for Watch<'_> {
         if ticks == LOOK && self.fuel.stopped() {
             self.stopped.set(true);
         }
-        self.stopped.get() || self.conflicts >= self.fuel.conflicts
+        self.stopped.get() || self.conflicts >= self.limit
     }
 }
 
@@ -123,7 +164,9 @@ impl Clauses {
         if fuel.conflicts == 0 || fuel.stopped() {
             return (Found::Stopped, Vec::new());
         }
-        let watch = Watch { conflicts: 0, fuel, ticks: Cell::new(0), stopped: Cell::new(false) };
+        // What the solver looks at for a conflict is known only afterwards; this much is usual.
+        let limit = fuel.conflicts.min(fuel.work / LOOKS_PER_CONFLICT + 1);
+        let watch = Watch { conflicts: 0, limit, fuel, ticks: Cell::new(0), stopped: Cell::new(false) };
         let mut solver = Solver::new(SolverOpts::default(), watch);
         for _ in 0..self.variables {
             solver.new_var_default();
@@ -152,9 +195,10 @@ impl Clauses {
             Found::Model => solver.get_model().iter().map(|&value| value == lbool::TRUE).collect(),
             _ => Vec::new(),
         };
-        let used = solver.num_conflicts();
+        let (conflicts, looks) = (solver.num_conflicts(), solver.num_propagations());
         drop(solver);
-        fuel.conflicts = fuel.conflicts.saturating_sub(used);
+        fuel.conflicts = fuel.conflicts.saturating_sub(conflicts);
+        fuel.work = fuel.work.saturating_sub(self.size() + looks);
         (found, model)
     }
 }

@@ -35,6 +35,22 @@ impl Limits {
     }
 }
 
+/// Time that runs down, for work in several parts.
+#[derive(Clone, Copy, Debug)]
+pub struct Countdown(Option<Instant>);
+
+impl Countdown {
+    /// Starts with so much time.
+    pub fn from(time: Duration) -> Self {
+        Countdown(Instant::now().checked_add(time))
+    }
+
+    /// What is left; `None` if there is no end.
+    pub fn left(&self) -> Option<Duration> {
+        self.0.map(|end| end.saturating_duration_since(Instant::now()))
+    }
+}
+
 /// What came out.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {

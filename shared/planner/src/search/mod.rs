@@ -10,6 +10,7 @@ mod novelty;
 mod open_list;
 mod portfolio;
 mod registry;
+mod spread;
 mod type_buckets;
 
 use std::rc::Rc;
@@ -20,7 +21,8 @@ use lamma_pddl::ast::{Domain, Problem};
 pub use anytime::{Anytime, solve_anytime};
 pub use conflict::never_together;
 pub(crate) use improve::eliminate;
-pub use limits::{GaveUp, Limits, Outcome, Unsolvable};
+pub use limits::{Countdown, GaveUp, Limits, Outcome, Unsolvable};
+pub use spread::spread;
 
 use crate::ground::{GroundError, ground};
 use crate::heuristic::{Blind, Costs, Graph, Heuristic, LandmarkCut, Relaxation};

@@ -180,7 +180,13 @@ fn report(args: &BenchArgs, set: &Set, finished: &[Finished], seconds: f64) -> R
             let what = if args.factored { "carried out by one process per agent" } else { "solved" };
             let limit = args.common.time_limit;
             let n = finished.len();
-            say(format_args!("{n} tasks {what} in {seconds:.1} s; limit {limit} s each; plans validated"));
+            let effort = match args.common.makespan_limit {
+                None => "default effort for the makespan".to_string(),
+                Some(seconds) => format!("up to {seconds} s of it for the makespan"),
+            };
+            say(format_args!(
+                "{n} tasks {what} in {seconds:.1} s; limit {limit} s each, {effort}; plans validated"
+            ));
         }
     }
     Ok(())

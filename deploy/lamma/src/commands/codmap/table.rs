@@ -22,6 +22,8 @@ pub struct Row {
     no_worse: Option<f64>,
     /// Makespan / proved lower bound, median.
     to_bound: Option<f64>,
+    /// The reference's best makespan / proved lower bound, median.
+    best_to_bound: Option<f64>,
     /// Share of makespans that are proved shortest.
     proved: Option<f64>,
 }
@@ -56,6 +58,11 @@ impl Row {
             .filter(|(_, f)| f.result.plan.makespan_lower_bound > 0.0)
             .map(|(_, f)| makespan(f) / f.result.plan.makespan_lower_bound)
             .collect();
+        let best_to_bound: Vec<f64> = pairs
+            .iter()
+            .filter(|(_, f)| f.result.plan.makespan_lower_bound > 0.0)
+            .filter_map(|(task, f)| Some(task.reference?.best_makespan? / f.result.plan.makespan_lower_bound))
+            .collect();
         Row {
             name: name.to_string(),
             n: pairs.len(),
@@ -66,6 +73,7 @@ impl Row {
             to_best: geometric_mean(&to_best),
             proved: share(&to_bound),
             to_bound: median(to_bound),
+            best_to_bound: median(best_to_bound),
         }
     }
 
@@ -79,6 +87,7 @@ impl Row {
             "makespan_to_best_geomean": self.to_best,
             "share_no_worse_than_best": self.no_worse,
             "makespan_to_bound_median": self.to_bound,
+            "best_to_bound_median": self.best_to_bound,
             "share_proved_shortest": self.proved,
         })
     }
@@ -105,7 +114,7 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
 pub fn text(name: &str, rows: &[Row]) -> String {
     let width = rows.iter().map(|r| r.name.len()).max().unwrap_or(0).max(8);
     let mut out = format!(
-        "\n{name}\n{:width$}  solved   median s  CPU s   makespan/best  no worse  makespan/bound  proved\n",
+        "\n{name}\n{:width$}  solved   median s  CPU s   makespan/best  no worse  makespan/bound  best/bound  proved\n",
         "domain"
     );
     let number = |v: Option<f64>| v.map_or("-".to_string(), |v| format!("{v:.2}"));
@@ -113,7 +122,7 @@ pub fn text(name: &str, rows: &[Row]) -> String {
         // Writing to a string does not fail.
         let _ = writeln!(
             out,
-            "{:width$}  {:3}/{:<3}  {:>8}  {:>6}  {:>13}  {:>8}  {:>14}  {:>6}",
+            "{:width$}  {:3}/{:<3}  {:>8}  {:>6}  {:>13}  {:>8}  {:>14}  {:>10}  {:>6}",
             r.name,
             r.solved,
             r.n,
@@ -122,6 +131,7 @@ pub fn text(name: &str, rows: &[Row]) -> String {
             number(r.to_best),
             number(r.no_worse),
             number(r.to_bound),
+            number(r.best_to_bound),
             number(r.proved),
         );
     }
