@@ -87,7 +87,7 @@ pub(crate) fn relied_on(
             if !literal_effects(&step.action).any(brings_about) {
                 continue;
             }
-            for earlier in later.after.iter().map(|&before| &wanted[before].condition) {
+            for earlier in before(later, wanted).into_iter().map(|before| &wanted[before].condition) {
                 relied_on.extend(earlier.witness(&states[at])?.into_iter().map(|literal| (at, literal)));
             }
         }
@@ -97,13 +97,21 @@ pub(crate) fn relied_on(
 
 /// What a sub-task asks for that neither holds at the start nor is asked for by one that it follows.
 fn new_literals(later: &Ordered, wanted: &[Ordered], initial: &WorldState) -> BTreeSet<Literal> {
-    let mut earlier: BTreeSet<&Literal> = BTreeSet::new();
-    let mut open = later.after.clone();
-    while let Some(before) = open.pop() {
-        earlier.extend(wanted[before].condition.literals());
-        open.extend(&wanted[before].after);
-    }
+    let earlier: BTreeSet<&Literal> =
+        before(later, wanted).into_iter().flat_map(|before| wanted[before].condition.literals()).collect();
     let literals = later.condition.literals().into_iter();
     let new = literals.filter(|l| !earlier.contains(l) && initial.facts.contains(&l.atom) != l.holds);
     new.cloned().collect()
+}
+
+/// All that a sub-task follows, the next one's predecessors included: the next one may hold already.
+fn before(later: &Ordered, wanted: &[Ordered]) -> BTreeSet<usize> {
+    let mut found = BTreeSet::new();
+    let mut open = later.after.clone();
+    while let Some(next) = open.pop() {
+        if found.insert(next) {
+            open.extend(&wanted[next].after);
+        }
+    }
+    found
 }

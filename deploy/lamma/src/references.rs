@@ -65,7 +65,8 @@ fn reference(task: &Task) -> Result<Reference, String> {
     let floor = joint.floor().ok_or("the goal is out of the team's reach")?;
     let limits = MakespanLimits { conflicts: CONFLICTS, size: SIZE, ..MakespanLimits::default() };
     let never = AtomicBool::new(false);
-    let found = joint.shortest(&[], floor, None, &limits, &never).ok_or("the goal is out of the team's reach")?;
+    let found =
+        joint.shortest(&[], floor, None, &limits, &never).ok_or("the goal is out of the team's reach")?;
     let bound = found.lower_bound.unwrap_or(floor);
     if let Some(schedule) = found.schedule {
         let steps = schedule.operators().count() as u32;

@@ -8,7 +8,6 @@
 //! what the machine gave to other programs meanwhile, the robots that it woke among them. *Running* is the sender's
 //! own processor time for its dearest send; `chrt -f 5` in front of the command keeps the others from the sender.)
 #![expect(clippy::unwrap_used, reason = "an example that fails says where")]
-#![expect(unsafe_code, reason = "a thread's processor time is had from the C interface only")]
 
 mod common;
 
@@ -19,7 +18,7 @@ use std::time::{Duration, Instant};
 
 use common::{Children, quantile, until_let_go};
 use lamma_bus::iceoryx::{self, Run, Scope};
-use lamma_bus::process::raise_open_files_limit;
+use lamma_bus::process::{raise_open_files_limit, thread_time};
 #[cfg(feature = "zenoh")]
 use lamma_bus::zenoh::{self, Join, Router};
 use lamma_bus::{Bus, Received};
@@ -154,14 +153,6 @@ fn waits() -> u64 {
     line.trim().parse().unwrap()
 }
 
-/// Processor time of this thread.
-fn running() -> Duration {
-    let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
-    // SAFETY: the pointer is of a value that outlives the call.
-    unsafe { libc::clock_gettime(libc::CLOCK_THREAD_CPUTIME_ID, &raw mut time) };
-    Duration::new(time.tv_sec.cast_unsigned(), u32::try_from(time.tv_nsec).unwrap())
-}
-
 struct Sent {
     times: Vec<Duration>,
     running: Vec<Duration>,
@@ -195,7 +186,7 @@ fn send(coordinator: &mut dyn Bus, simulator: &mut dyn Bus, robots: u16, sends: 
             3 if n % 100 == 3 => envelope(&vocabulary),
             _ => envelope(&grant),
         };
-        let (start, ran) = (Instant::now(), running());
+        let (start, ran) = (Instant::now(), thread_time());
         match n % 4 {
             1 => coordinator.publish(Topic::Directive(robot), &message).unwrap(),
             2 => simulator.publish(Topic::Ack(robot), &message).unwrap(),
@@ -204,7 +195,7 @@ fn send(coordinator: &mut dyn Bus, simulator: &mut dyn Bus, robots: u16, sends: 
             _ => simulator.publish_frame(&words).unwrap(),
         }
         sent.times.push(start.elapsed());
-        sent.running.push(running() - ran);
+        sent.running.push(thread_time() - ran);
     }
     sent.waits = waits() - before;
     sent

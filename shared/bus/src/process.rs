@@ -2,12 +2,13 @@
 //! inherit nothing by accident, and have descriptors enough.
 #![expect(
     unsafe_code,
-    reason = "between fork and exec, and for close_range, only the C interface can be used"
+    reason = "between fork and exec, for close_range and for a thread's clock, only the C interface can be used"
 )]
 
 use std::io::{self, Read};
 use std::os::unix::process::CommandExt;
 use std::process::Command;
+use std::time::Duration;
 
 use rustix::io::Errno;
 use rustix::process::{Pid, Resource, Rlimit, Signal};
@@ -52,6 +53,14 @@ pub fn tie_own_program(command: &mut Command) -> &mut Command {
 /// the kernel's signal has no effect, [`exit_when_stdin_closes`] takes its place.
 pub fn tie_self_to_parent() -> io::Result<()> {
     Ok(rustix::process::set_parent_process_death_signal(Some(Signal::KILL))?)
+}
+
+/// Processor time that the calling thread has used, for benchmarks.
+pub fn thread_time() -> Duration {
+    let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
+    // SAFETY: the pointer is of a value that outlives the call. The call cannot fail: the clock is there.
+    unsafe { libc::clock_gettime(libc::CLOCK_THREAD_CPUTIME_ID, &raw mut time) };
+    Duration::new(time.tv_sec.cast_unsigned(), u32::try_from(time.tv_nsec).unwrap_or(0))
 }
 
 /// Ends this process when its standard input closes: the launcher holds the other end, so this is the

@@ -1,6 +1,7 @@
 //! Sets of rows of objects, such as a predicate's facts, as a few patterns: rows with gaps.
 
 use super::join::UNBOUND;
+use crate::lifted::{LiftedAtom, Term};
 
 /// The patterns of one set before they become one.
 const MAX_PATTERNS: usize = 48;
@@ -62,4 +63,13 @@ mod tests {
         assert_eq!(meet(&[1, UNBOUND], &[UNBOUND, 2]), Some(vec![1, 2]));
         assert_eq!(meet(&[1, 2], &[2, UNBOUND]), None);
     }
+}
+
+/// An atom's arguments under a binding.
+pub(super) fn row(atom: &LiftedAtom, binding: &[u32]) -> Pattern {
+    let value = |term: &Term| match term {
+        Term::Object(object) => *object,
+        Term::Variable(slot) => binding.get(*slot as usize).copied().unwrap_or(UNBOUND),
+    };
+    atom.args.iter().map(value).collect()
 }

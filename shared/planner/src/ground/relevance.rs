@@ -16,7 +16,7 @@
 use lamma_pddl::ast::AssignOp;
 
 use super::join::UNBOUND;
-use super::patterns::{Pattern, Patterns, covers, meet};
+use super::patterns::{Pattern, Patterns, covers, meet, row};
 use crate::lifted::{Body, Change, Expr, Formula, Head, Lifted, LiftedAtom, Role, Rule, Term};
 
 /// A body is looked at once for each way to fill its gaps from facts that never change, if there are so few ...
@@ -496,13 +496,4 @@ impl<'a> Backward<'a> {
         let everything = filter.iter().any(Vec::is_empty);
         (!everything).then_some(filter)
     }
-}
-
-/// An atom's arguments under a binding.
-fn row(atom: &LiftedAtom, binding: &[u32]) -> Pattern {
-    let value = |term: &Term| match term {
-        Term::Object(object) => *object,
-        Term::Variable(slot) => binding.get(*slot as usize).copied().unwrap_or(UNBOUND),
-    };
-    atom.args.iter().map(value).collect()
 }

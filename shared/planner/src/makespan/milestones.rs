@@ -37,14 +37,15 @@ impl Model {
         let own: Vec<BTreeSet<Lit>> = milestones.iter().map(|m| self.literals_of(task, &m.need)).collect();
         let mut reached: Vec<Option<Lit>> = vec![None; milestones.len()];
         let mut relied_on: Vec<Vec<Lit>> = vec![Vec::new(); self.preconditions.len()];
-        for (at, milestone) in milestones.iter().enumerate() {
+        for at in 0..milestones.len() {
             let earlier: BTreeSet<Lit> = all_before(milestones, at)
                 .into_iter()
                 .flat_map(|before| own[before].iter().copied())
                 .collect();
             let later = own[at].iter().filter(|lit| !earlier.contains(lit) && !self.initially[lit.index()]);
             let later: Vec<Lit> = later.copied().collect();
-            for &before in &milestone.after {
+            // All of them, not the next alone: that one may hold already, and the one before it not.
+            for before in all_before(milestones, at) {
                 let lit = match reached[before] {
                     Some(lit) => lit,
                     None => self.derived(task, &milestones[before].need),
