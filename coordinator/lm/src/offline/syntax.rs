@@ -2,6 +2,10 @@
 
 use super::lexicon::{Act, Noun, Settings, Verb};
 
+mod preposition;
+
+pub use preposition::preposition;
+
 /// How much of what a noun names is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
@@ -259,135 +263,6 @@ impl Clause<'_> {
             phrase.quantity = Quantity::All;
         }
     }
-}
-
-/// Prepositions, the longer first.
-const PREPOSITIONS: [(&str, Relation); 85] = [
-    ("next the", Relation::Near),
-    ("next a", Relation::Near),
-    ("beside of", Relation::Near),
-    ("to the left side of", Relation::Near),
-    ("to the right side of", Relation::Near),
-    ("to the left of", Relation::Near),
-    ("to the right of", Relation::Near),
-    ("on the left of", Relation::Near),
-    ("on the right of", Relation::Near),
-    ("at the left of", Relation::Near),
-    ("at the right of", Relation::Near),
-    ("to the side of", Relation::Near),
-    ("with the help of", Relation::With),
-    ("by the light of", Relation::With),
-    ("in the light of", Relation::With),
-    ("under the light of", Relation::With),
-    ("with the light of", Relation::With),
-    ("in the direction of", Relation::Near),
-    ("in front of", Relation::Near),
-    ("in back of", Relation::Near),
-    ("on top of", Relation::In),
-    ("to the top of", Relation::To),
-    ("in between", Relation::Near),
-    ("left of", Relation::Near),
-    ("right of", Relation::Near),
-    ("next to", Relation::Near),
-    ("close to", Relation::Near),
-    ("closest to", Relation::Near),
-    ("nearest to", Relation::Near),
-    ("adjacent to", Relation::Near),
-    ("across from", Relation::Near),
-    ("opposite of", Relation::Near),
-    ("facing", Relation::Near),
-    ("out of", Relation::From),
-    ("away from", Relation::From),
-    ("off of", Relation::From),
-    ("inside of", Relation::In),
-    ("back to", Relation::To),
-    ("back into", Relation::To),
-    ("back onto", Relation::To),
-    ("back in", Relation::To),
-    ("back on", Relation::To),
-    ("over to", Relation::To),
-    ("on to", Relation::To),
-    ("in to", Relation::To),
-    ("over at", Relation::In),
-    ("down on", Relation::In),
-    ("along with", Relation::With),
-    ("together with", Relation::With),
-    ("by means of", Relation::With),
-    ("beside", Relation::Near),
-    ("besides", Relation::Near),
-    ("beneath", Relation::Near),
-    ("underneath", Relation::Near),
-    ("under", Relation::Near),
-    ("below", Relation::Near),
-    ("above", Relation::Near),
-    ("behind", Relation::Near),
-    ("between", Relation::Near),
-    ("among", Relation::Near),
-    ("against", Relation::Near),
-    ("around", Relation::Near),
-    ("near", Relation::Near),
-    ("nearest", Relation::Near),
-    ("by", Relation::Near),
-    ("beyond", Relation::Near),
-    ("into", Relation::To),
-    ("onto", Relation::To),
-    ("to", Relation::To),
-    ("towards", Relation::To),
-    ("toward", Relation::To),
-    ("inside", Relation::In),
-    ("within", Relation::In),
-    ("upon", Relation::In),
-    ("atop", Relation::In),
-    ("over", Relation::In),
-    ("in", Relation::In),
-    ("on", Relation::In),
-    ("at", Relation::Near),
-    ("from", Relation::From),
-    ("off", Relation::From),
-    ("with", Relation::With),
-    ("using", Relation::With),
-    ("via", Relation::With),
-    ("for", Relation::For),
-];
-
-/// The preposition at the start of the words: its relation and length.
-pub fn preposition(words: &[&str]) -> Option<(Relation, usize)> {
-    let first = words.first()?;
-    if let Some(length) = to_one_side_of(words) {
-        return Some((Relation::Near, length));
-    }
-    PREPOSITIONS.iter().find_map(|(phrase, relation)| {
-        let mut parts = phrase.split(' ');
-        if parts.next() != Some(first) {
-            return None;
-        }
-        let length = phrase.split(' ').count();
-        let fits = words.len() >= length && phrase.split(' ').zip(words).all(|(a, b)| a == *b);
-        fits.then_some((*relation, length))
-    })
-}
-
-/// "to the bottom left of", "to the far right side of": its length.
-fn to_one_side_of(words: &[&str]) -> Option<usize> {
-    const SIDES: [&str; 13] = [
-        "left",
-        "right",
-        "side",
-        "hand",
-        "far",
-        "near",
-        "bottom",
-        "top",
-        "upper",
-        "lower",
-        "immediate",
-        "other",
-        "rear",
-    ];
-    let sides = words.strip_prefix(&["to", "the"])?;
-    let length = sides.iter().take_while(|word| SIDES.contains(word)).count();
-    let beside = sides[..length].iter().any(|word| ["left", "right", "side"].contains(word));
-    (beside && sides.get(length) == Some(&"of")).then_some(length + 3)
 }
 
 const FUNCTION_WORDS: [&str; 98] = [

@@ -1,0 +1,125 @@
+//! Several things of the scene at once: a count of them, all of them, those of a class.
+
+use super::{Discourse, Which};
+use crate::offline::lexicon::Noun;
+use crate::offline::syntax::{Phrase, Place, Quantity};
+
+impl Discourse<'_> {
+    /// So many different objects: of one type if there are enough of it.
+    pub(super) fn several(&mut self, kinds: &[String], count: usize, phrase: &Phrase, at: &[Place]) -> Vec<usize> {
+        let count = count.min(64);
+        let enough = kinds.iter().position(|kind| self.scene.of_kind(kind).len() >= count);
+        let sliced = phrase.states.contains_key("isSliced");
+        let mut order = kinds.to_vec();
+        match enough {
+            Some(at) => order.swap(0, at),
+            None if sliced => {}
+            None => {
+                let there: usize = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).sum();
+                if there < count
+                    && let Some(alike) = self.alike(kinds, count)
+                {
+                    let text = format!("there are not {count} of \"{}\" here; {alike} is taken", phrase.text);
+                    self.assume(text, 0.6);
+                    return (0..count)
+                        .map(|_| self.add(vec![alike.clone()], Which::Any, &phrase.text))
+                        .collect();
+                }
+                if there < count {
+                    self.problem(
+                        format!("there are not {count} of \"{}\" here, only {there}", phrase.text),
+                        0.45,
+                    );
+                }
+                return self.spread(kinds, count.min(there), phrase);
+            }
+        }
+        let selected = self.selected(&order[..1], phrase, at);
+        if selected.len() >= count {
+            let names: Vec<(String, String)> =
+                selected.iter().take(count).map(|o| (o.kind.clone(), o.name.clone())).collect();
+            return names
+                .into_iter()
+                .map(|(kind, name)| self.add(vec![kind], Which::Named(name), &phrase.text))
+                .collect();
+        }
+        (0..count).map(|_| self.add(order.clone(), Which::Any, &phrase.text)).collect()
+    }
+
+    /// A type that is called by the name of one of the types, where there are so many of it.
+    fn alike(&self, kinds: &[String], count: usize) -> Option<String> {
+        let others = kinds.iter().flat_map(|kind| self.lexicon.likes(kind));
+        others
+            .filter(|kind| !kinds.contains(kind))
+            .find(|kind| self.scene.of_kind(kind).len() >= count)
+            .cloned()
+    }
+
+    /// Every object of the types that is picked out.
+    pub(super) fn every(&mut self, kinds: &[String], phrase: &Phrase, at: &[Place]) -> Vec<usize> {
+        let mut found = Vec::new();
+        let except = self.exceptions(&phrase.except);
+        for kind in kinds {
+            let all = self.scene.of_kind(kind);
+            let selected = self.selected(std::slice::from_ref(kind), phrase, at);
+            if all.len() == 1 {
+                found.push(self.add(vec![kind.clone()], Which::Any, &phrase.text));
+            } else if selected.is_empty() && except.is_empty() {
+                found.push(self.add(vec![kind.clone()], Which::All, &phrase.text));
+            } else {
+                let chosen = if selected.is_empty() { all.to_vec() } else { selected };
+                for object in chosen {
+                    if !except.contains(&object.name) && !except.contains(&object.kind) {
+                        found.push(self.add(
+                            vec![kind.clone()],
+                            Which::Named(object.name.clone()),
+                            &phrase.text,
+                        ));
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    /// Members of a class: all of them for a plural, so many of different types for a number.
+    pub(super) fn class(&mut self, noun: &Noun, kinds: &[String], phrase: &Phrase, at: &[Place]) -> Vec<usize> {
+        let uncountable = !noun.word.ends_with('s')
+            && ["food", "cutlery", "silverware", "produce", "fruit"].contains(&noun.word.as_str());
+        let found = match phrase.quantity {
+            Quantity::Count(count) => {
+                let there: usize = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).sum();
+                if there < count {
+                    self.problem(
+                        format!("there are not {count} of \"{}\" here, only {there}", phrase.text),
+                        0.45,
+                    );
+                }
+                self.spread(kinds, count.min(there), phrase)
+            }
+            Quantity::One if !uncountable || phrase.indefinite || phrase.states.contains_key("isSliced") => {
+                vec![self.one(kinds.to_vec(), phrase, at)]
+            }
+            _ => self.every(kinds, phrase, at),
+        };
+        let names: Vec<&str> = found.iter().map(|&e| self.entities[e].kind()).collect();
+        let text = format!("\"{}\" here means {}", phrase.text, names.join(", "));
+        self.assume(text, 0.97);
+        found
+    }
+
+    /// So many objects, of as many types as possible.
+    pub(super) fn spread(&mut self, kinds: &[String], count: usize, phrase: &Phrase) -> Vec<usize> {
+        let mut found = Vec::new();
+        let mut round = 0;
+        while found.len() < count && round < 64 {
+            for kind in kinds {
+                if found.len() < count && self.scene.of_kind(kind).len() > round {
+                    found.push(self.add(vec![kind.clone()], Which::Any, &phrase.text));
+                }
+            }
+            round += 1;
+        }
+        found
+    }
+}
