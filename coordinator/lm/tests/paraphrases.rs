@@ -43,7 +43,7 @@ const EFFECTS: &[Effect] = &[
             "the X has to go Y",
             "see to it that the X ends up Y",
             "after picking up the X, put it Y",
-            "could you get the X Y for me",
+            "could you put the X Y for me",
             "I'd like the X to be Y",
             "X Y please",
         ],

@@ -230,6 +230,8 @@ impl<'a> Parser<'a> {
                 continue;
             }
             if self.contents_told(clause)
+                || self.belongs(clause)
+                || self.passive(clause)
                 || self.particle(clause)
                 || self.complement(clause)
                 || self.place(clause)

@@ -103,9 +103,18 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         } else if let Some(verb) = self.choose(clause) {
             let liquid = !clause.objects.is_empty() && clause.objects.iter().all(|o| o.liquid().is_some());
             spoken = match verb.act {
-                Act::Place | Act::Hold | Act::Keep if liquid && clause.places.iter().any(|place| {
-                    matches!(place.relation, Relation::In | Relation::To)
-                }) =>
+                Act::Place | Act::Hold | Act::Empty if liquid && self.poured_from(clause, verb).is_some() => {
+                    let from = self.poured_from(clause, verb).into_iter().collect();
+                    self.empty(&Clause { objects: from, places: Vec::new(), ..clause.clone() })
+                }
+                Act::Set if liquid && self.runs_into(clause, verb) => self.fill(clause, verb),
+                _ if is_a_trip(clause, next) => self.trip(clause),
+                Act::Place | Act::Hold | Act::Keep
+                    if liquid
+                        && clause
+                            .places
+                            .iter()
+                            .any(|place| matches!(place.relation, Relation::In | Relation::To)) =>
                 {
                     self.fill(clause, verb)
                 }
@@ -177,6 +186,39 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             }
         }
         !spoken.objects.is_empty()
+    }
+
+    /// "tip the water out of the mug": the mug.
+    fn poured_from(&self, clause: &Clause<'a>, verb: &Verb) -> Option<Phrase> {
+        let scene = self.discourse.scene;
+        let vessel = |place: &&Place| match &place.phrase.head {
+            Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, "canFillWithLiquid")),
+            Head::Pronoun { .. } => true,
+            _ => false,
+        };
+        let elsewhere = |place: &Place| matches!(place.relation, Relation::In | Relation::To);
+        // "bring some water from the kettle" is no wish for an empty kettle.
+        let all_of_it = verb.act == Act::Empty || clause.objects.iter().all(|phrase| phrase.definite);
+        let from = clause.places.iter().filter(|place| place.relation == Relation::From).find(vessel)?;
+        (all_of_it && !clause.places.iter().any(elsewhere)).then(|| from.phrase.clone())
+    }
+
+    /// "run water into the mug": the mug is filled.
+    fn runs_into(&self, clause: &Clause<'a>, verb: &Verb) -> bool {
+        let scene = self.discourse.scene;
+        verb.set.get("isToggled") == Some(&super::yes())
+            && clause.places.iter().any(|place| {
+                matches!(place.relation, Relation::In | Relation::To)
+                    && matches!(&place.phrase.head, Head::Noun(noun)
+                        if noun.kinds.iter().any(|kind| scene.affords(kind, "canFillWithLiquid")))
+            })
+    }
+
+    /// "take the mug to the sink and wash it": the sink is where it is washed, not where it stays.
+    fn trip(&mut self, clause: &Clause<'a>) -> Spoken {
+        let spoken = self.only_mention(&Clause { places: Vec::new(), ..clause.clone() });
+        let reached = self.receptacles_spoken_of(&Clause { objects: Vec::new(), ..clause.clone() });
+        Spoken { reached, ..spoken }
     }
 
     /// "the pan is dirty, wash it": only says what is spoken of.
@@ -469,6 +511,25 @@ fn speaks_of_it(clause: &Clause<'_>) -> bool {
     !clause.verbs.is_empty()
         && (clause.objects.is_empty()
             || clause.objects.iter().any(|phrase| matches!(phrase.head, Head::Pronoun { .. })))
+}
+
+/// Whether a clause carries something to a sink only for what the next one does to it there.
+fn is_a_trip(clause: &Clause<'_>, next: Option<&Clause<'_>>) -> bool {
+    const SINKS: [&str; 4] = ["SinkBasin", "Sink", "Faucet", "BathtubBasin"];
+    let to_sink = |place: &Place| {
+        place.relation == Relation::To
+            && matches!(&place.phrase.head, Head::Noun(noun)
+                if noun.kinds.iter().any(|kind| SINKS.contains(&kind.as_str())))
+    };
+    let washes = |verb: &&Verb| {
+        matches!(verb.act, Act::Fill | Act::Empty) || verb.set.get("isDirty") == Some(&super::no())
+    };
+    clause.verbs.iter().any(|verb| verb.act == Act::Hold)
+        && matches!(clause.objects.as_slice(), [_])
+        && !clause.places.is_empty()
+        && clause.places.iter().all(to_sink)
+        && next
+            .is_some_and(|next| !next.negated && speaks_of_it(next) && next.verbs.iter().any(|v| washes(&v)))
 }
 
 /// "the pan needs to be washed"

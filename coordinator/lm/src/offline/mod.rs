@@ -97,7 +97,7 @@ impl Offline {
         };
         let mut reading = reading;
         check_robots(&mut reading.decomposition, &request.robots);
-        reading.answer(request.assume)
+        reading.answer(&text::shortened(&request.instruction), request.assume)
     }
 }
 
@@ -144,7 +144,8 @@ struct Reading {
 }
 
 impl Reading {
-    fn answer(self, assume: bool) -> Answer {
+    /// The answer to what was `said`.
+    fn answer(self, said: &str, assume: bool) -> Answer {
         let Self { decomposition, problems, others, only_goes, .. } = self;
         let empty = decomposition.subtasks.is_empty();
         if !empty && (assume || decomposition.confidence >= THRESHOLD) {
@@ -164,7 +165,7 @@ impl Reading {
             None if empty && only_goes => {
                 "Going somewhere alone changes nothing that I can check. What shall be done there?".to_owned()
             }
-            None if empty => "I found nothing to do in this. What shall be true in the end?".to_owned(),
+            None if empty => format!("I found nothing to do in \"{said}\". What shall be true in the end?"),
             None => "Is this what you mean?".to_owned(),
         };
         let all = std::iter::once(decomposition).chain(others);
@@ -227,7 +228,8 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
 }
 
 fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
-    let mut parser = Parser::new(words, lexicon, scene);
+    let words = text::without_endings(words, lexicon);
+    let mut parser = Parser::new(&words, lexicon, scene);
     let mut clauses = parser.clauses();
     let passed_over = std::mem::take(&mut parser.passed_over);
     let choices = std::mem::take(&mut parser.choices);
@@ -275,6 +277,7 @@ fn one_clause<'a>(
     if !clause.negated
         && is_weak(clause, lexicon)
         && !says_where(clause, interpreter.discourse.scene)
+        && !says_state(clause, interpreter.discourse.scene)
         && interpreter.first_situation(index, &situation::ranked(situations, &words, true), &words)
     {
         interpreter.discourse.spoken.push(Spoken::default());
@@ -318,6 +321,19 @@ fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
     clause.verbs.is_empty() || weak && !clause.verb_text.contains(' ') && !places
 }
 
+/// Whether a clause says what a thing of the scene shall be like: "have the potato chopped" is no recipe.
+fn says_state(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
+    let is_here = |phrase: &syntax::Phrase| match &phrase.head {
+        syntax::Head::Noun(noun) => !noun.class && noun.kinds.iter().any(|kind| scene.has(kind)),
+        syntax::Head::Named(_) => true,
+        _ => false,
+    };
+    clause.verbs.iter().any(|verb| matches!(verb.act, Act::Keep | Act::Place))
+        && !clause.complement.is_empty()
+        && !clause.objects.is_empty()
+        && clause.objects.iter().all(is_here)
+}
+
 /// Whether a clause takes a thing of the scene to a place of the scene: "take the cloth to the bath" is no bath.
 fn says_where(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
     let is_here = |phrase: &syntax::Phrase, affordance: &str| match &phrase.head {
@@ -330,9 +346,15 @@ fn says_where(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
         matches!(place.relation, syntax::Relation::In | syntax::Relation::To)
             && is_here(&place.phrase, "receptacle")
     };
+    let fills = |place: &syntax::Place| {
+        matches!(place.relation, syntax::Relation::In | syntax::Relation::To)
+            && is_here(&place.phrase, "canFillWithLiquid")
+    };
+    let liquid = clause.objects.iter().any(|phrase| phrase.liquid().is_some());
     moves
-        && clause.objects.iter().any(|phrase| is_here(phrase, "pickupable"))
-        && clause.places.iter().any(goal)
+        && (clause.objects.iter().any(|phrase| is_here(phrase, "pickupable"))
+            && clause.places.iter().any(goal)
+            || liquid && clause.places.iter().any(fills))
 }
 
 /// Whether a clause does something to a thing of the scene that it names.

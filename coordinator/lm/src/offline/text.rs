@@ -171,6 +171,45 @@ pub fn in_own_words(text: &str, repaired: &str, typed: &str) -> String {
     result + rest
 }
 
+/// An instruction as it is quoted: its beginning, if it is long.
+pub fn shortened(instruction: &str) -> String {
+    const LONGEST: usize = 120;
+    let said = instruction.trim();
+    match said.char_indices().nth(LONGEST) {
+        Some((at, _)) => format!("{} …", said[..at].trim_end()),
+        None => said.to_owned(),
+    }
+}
+
+/// Words without those at the end of a sentence or of a part of it that say only how soon or how politely.
+pub fn without_endings(words: &[String], lexicon: &Lexicon) -> Vec<String> {
+    let is_end = |word: &str| [".", ","].contains(&word);
+    let mut kept: Vec<String> = Vec::with_capacity(words.len());
+    let mut part = 0;
+    for word in words.iter().map(String::as_str).chain(std::iter::once(".")) {
+        if is_end(word) {
+            while let Some(length) = ending(&kept[part..], lexicon) {
+                kept.truncate(kept.len() - length);
+            }
+        }
+        kept.push(word.to_owned());
+        if is_end(word) {
+            part = kept.len();
+        }
+    }
+    kept.pop();
+    kept
+}
+
+/// How many words of an ending stand behind something else.
+fn ending(words: &[String], lexicon: &Lexicon) -> Option<usize> {
+    let longest = words.len().saturating_sub(1).min(super::lexicon::LONGEST);
+    (1..=longest).rev().find(|&length| {
+        let last: Vec<&str> = words[words.len() - length..].iter().map(String::as_str).collect();
+        lexicon.is_small("endings", &last)
+    })
+}
+
 /// Whether a word needs no repair.
 pub fn is_known(word: &str, lexicon: &Lexicon, scene: &Scene) -> bool {
     super::syntax::is_function_word(word)

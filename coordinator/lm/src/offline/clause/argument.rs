@@ -163,6 +163,7 @@ impl<'a> Parser<'a> {
                 [",", ".", "and", "then", "before", "after", "while", "but", "so", "again", "please"]
                     .contains(next)
                     || preposition(&[next]).is_some() && self.position > start
+                    || *next == "of" && rest[..length] == ["full"]
                     || self.lexicon.longest_small("polite", &rest[length..]).is_some_and(|length| length > 1)
             });
             let particle = self.position == start && preposition(&rest[..length]).is_some();
@@ -180,10 +181,99 @@ impl<'a> Parser<'a> {
                 clause.complement.insert(property.clone(), value);
             }
             self.position += length;
+            if adjective.set.get("isFilledWithLiquid") == Some(&super::super::yes()) && !negated {
+                self.full_of_what(clause);
+            }
             return true;
         }
         self.position = start;
         false
+    }
+
+    /// "filled with water", "full of water"
+    fn full_of_what(&mut self, clause: &mut Clause<'a>) {
+        if !matches!(self.peek(), Some("with" | "of")) {
+            return;
+        }
+        let start = self.position;
+        self.position += 1;
+        match self.phrase(0).and_then(|phrase| phrase.liquid().map(super::super::mention::filled)) {
+            Some(filled) => clause.complement.extend(filled),
+            None => self.position = start,
+        }
+    }
+
+    /// "the bowl belongs on the counter", "it ends up in the fridge": where it is to be put.
+    pub(super) fn belongs(&mut self, clause: &mut Clause<'a>) -> bool {
+        let Some(word) = self.peek() else { return false };
+        let length = match self.word_at(1) {
+            Some("up") if ["ends", "end", "winds", "wind"].contains(&word) => 2,
+            _ if ["belongs", "belong"].contains(&word) => 1,
+            _ => return false,
+        };
+        let known = clause.verbs.is_empty() || clause.verbs.iter().any(|verb| verb.act == Act::Keep);
+        if !known || clause.objects.is_empty() || self.ahead(length).place_length().is_none() {
+            return false;
+        }
+        if clause.verbs.is_empty() {
+            clause.unknown.push("belongs".to_owned());
+        }
+        self.position += length;
+        true
+    }
+
+    fn place_length(&self) -> Option<usize> {
+        preposition(&self.rest()).map(|(_, length)| length)
+    }
+
+    /// "I want the bread thrown out", "the egg should be thrown away": a participle that no adjective is.
+    pub(super) fn passive(&mut self, clause: &mut Clause<'a>) -> bool {
+        const AUXILIARIES: [&str; 14] = [
+            "should", "must", "has", "have", "needs", "need", "ought", "shall", "to", "be", "get", "gets",
+            "is", "are",
+        ];
+        let kept = clause.verbs.iter().any(|verb| verb.act == Act::Keep);
+        if clause.objects.is_empty() || !clause.complement.is_empty() || !(kept || clause.verbs.is_empty()) {
+            return false;
+        }
+        let length =
+            (0..).take_while(|&at| self.word_at(at).is_some_and(|w| AUXILIARIES.contains(&w))).count();
+        let auxiliaries: Vec<&str> = (0..length).filter_map(|at| self.word_at(at)).collect();
+        let asked = ["be", "get", "gets"].iter().any(|word| auxiliaries.contains(word));
+        // "I want" opens the sentence and is no verb of the clause.
+        let wished =
+            self.words[..self.position].iter().any(|word| ["want", "like", "need"].contains(&word.as_str()));
+        let plain = auxiliaries.iter().all(|word| ["is", "are"].contains(word));
+        if !(asked || kept && plain || wished && auxiliaries.is_empty()) {
+            return false;
+        }
+        let ahead = self.ahead(length);
+        let rest = ahead.rest();
+        if (1..=2.min(rest.len())).any(|n| self.lexicon.adjective(&rest[..n]).is_some()) {
+            return false;
+        }
+        let Some(word) = ahead.peek() else { return false };
+        let behind = rest.get(1..).unwrap_or_default();
+        let changes = |verb: &Verb| !matches!(verb.act, Act::Keep | Act::Go | Act::Use | Act::Hold);
+        let found: Vec<_> = self
+            .lexicon
+            .verbs(word)
+            .into_iter()
+            .filter(|(form, particles, verb)| {
+                (*form == VerbForm::Past || ["put", "set"].contains(&word))
+                    && particles.len() <= behind.len()
+                    && particles.iter().zip(behind).all(|(a, b)| a == b)
+                    && changes(verb)
+                    && self.objects_may_fit(clause, verb)
+            })
+            .collect();
+        let Some(particles) = found.first().map(|(_, particles, _)| particles.len()) else { return false };
+        clause.verbs =
+            found.into_iter().filter(|(_, p, _)| p.len() == particles).map(|(_, _, verb)| verb).collect();
+        clause.verb_text = ahead.text_between(ahead.position, ahead.position + particles + 1);
+        self.wants_place = clause.verbs.iter().any(|verb| verb.act == Act::Place);
+        self.position += length + particles + 1;
+        true
     }
 
     /// "the pan needs washing"

@@ -138,8 +138,7 @@ impl<'a> Interpreter<'_, 'a> {
                 .places
                 .iter()
                 .filter(|place| {
-                    matches!(place.relation, Relation::In | Relation::To)
-                        && place.phrase.liquid().is_none()
+                    matches!(place.relation, Relation::In | Relation::To) && place.phrase.liquid().is_none()
                 })
                 .map(|place| place.phrase.clone())
                 .collect();

@@ -146,7 +146,7 @@ impl<'a> Interpreter<'_, 'a> {
     }
 
     /// The receptacles that a clause names, for "in it" later.
-    fn receptacles_spoken_of(&mut self, clause: &Clause<'a>) -> Vec<usize> {
+    pub(super) fn receptacles_spoken_of(&mut self, clause: &Clause<'a>) -> Vec<usize> {
         let scene = self.discourse.scene;
         let takes = |phrase: &&Phrase| matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")));
         let named = clause.places.iter().map(|place| &place.phrase).chain(&clause.objects).find(takes);
