@@ -417,93 +417,6 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         }
         Spoken { places: lamps, ..Spoken::default() }
     }
-
-    fn hold(&mut self, clause: &Clause<'a>) -> Spoken {
-        let goal = clause.places.iter().rposition(|place| {
-            place.relation == Relation::To
-                && matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| self.discourse.scene.has(kind)))
-        });
-        if let Some(goal) = goal {
-            if !is_lamp(&clause.places[goal].phrase) {
-                let mut at = clause.places.clone();
-                let to = at.remove(goal);
-                return self.put(clause, &at, &to);
-            }
-            let mut spoken = self.examine(clause);
-            let lamps = self.discourse.mention(&clause.places[goal].phrase, &[], Some("toggleable"));
-            spoken.places.extend(lamps);
-            return spoken;
-        }
-        let by_light =
-            |place: &Place| is_lamp(&place.phrase) && (place.under || place.relation == Relation::With);
-        if clause.places.iter().any(by_light) {
-            return self.examine(clause);
-        }
-        let at: Vec<Place> = clause
-            .places
-            .iter()
-            .filter(|p| !matches!(p.relation, Relation::With | Relation::For))
-            .cloned()
-            .collect();
-        let objects = self.objects(clause, &at, Some("pickupable"));
-        self.take(&objects);
-        let places = self.places_spoken_of(&clause.places);
-        Spoken { objects, places, placed: false, ..Spoken::default() }
-    }
-
-    fn take(&mut self, objects: &[usize]) {
-        for &entity in objects {
-            let kind = self.discourse.entities[entity].kind().to_owned();
-            if self.discourse.scene.affords(&kind, "pickupable") {
-                self.add(entity, Change::Held);
-            } else {
-                let text = self.discourse.entities[entity].text.clone();
-                self.discourse.problem(format!("\"{text}\" ({kind}) cannot be picked up"), 0.3);
-            }
-        }
-    }
-
-    /// Things named only to say where something is; remembered for "it".
-    fn places_spoken_of(&mut self, places: &[Place]) -> Vec<usize> {
-        let scene = self.discourse.scene;
-        let mut found = Vec::new();
-        for place in places {
-            let known = matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| scene.has(kind)));
-            if known && matches!(place.relation, Relation::In | Relation::From | Relation::Near) {
-                found.extend(self.discourse.mention(&place.phrase, &[], None));
-            }
-        }
-        found
-    }
-
-    fn examine(&mut self, clause: &Clause<'a>) -> Spoken {
-        let is_light = |place: &&Place| is_lamp(&place.phrase);
-        let with: Vec<Place> = clause
-            .objects
-            .iter()
-            .flat_map(|phrase| &phrase.with)
-            .map(|phrase| Place::new(Relation::With, "with", phrase.clone()))
-            .collect();
-        let light = clause.places.iter().chain(&with).find(is_light).cloned();
-        let at: Vec<Place> = clause
-            .places
-            .iter()
-            .filter(|place| !is_light(place) && matches!(place.relation, Relation::In | Relation::From))
-            .cloned()
-            .collect();
-        let objects = self.objects(clause, &at, Some("pickupable"));
-        self.take(&objects);
-        let mut places = Vec::new();
-        if let Some(light) = light {
-            self.lamp_wanted = true;
-            let phrase = self.with_lamps_first(&light.phrase);
-            places = self.discourse.mention(&phrase, &[], Some("toggleable"));
-            for &lamp in &places {
-                self.add(lamp, Change::State("isToggled".to_owned(), super::yes()));
-            }
-        }
-        Spoken { objects, places, placed: false, ..Spoken::default() }
-    }
 }
 
 /// Whether a clause is about what was just spoken of.
@@ -566,4 +479,5 @@ fn about_the_same(a: &Change, b: &Change) -> bool {
 
 mod changing;
 mod forbid;
+mod holding;
 mod placing;

@@ -6,7 +6,13 @@ use crate::offline::syntax::{Phrase, Place, Quantity};
 
 impl Discourse<'_> {
     /// So many different objects: of one type if there are enough of it.
-    pub(super) fn several(&mut self, kinds: &[String], count: usize, phrase: &Phrase, at: &[Place]) -> Vec<usize> {
+    pub(super) fn several(
+        &mut self,
+        kinds: &[String],
+        count: usize,
+        phrase: &Phrase,
+        at: &[Place],
+    ) -> Vec<usize> {
         let count = count.min(64);
         let enough = kinds.iter().position(|kind| self.scene.of_kind(kind).len() >= count);
         let sliced = phrase.states.contains_key("isSliced");
@@ -83,7 +89,13 @@ impl Discourse<'_> {
     }
 
     /// Members of a class: all of them for a plural, so many of different types for a number.
-    pub(super) fn class(&mut self, noun: &Noun, kinds: &[String], phrase: &Phrase, at: &[Place]) -> Vec<usize> {
+    pub(super) fn class(
+        &mut self,
+        noun: &Noun,
+        kinds: &[String],
+        phrase: &Phrase,
+        at: &[Place],
+    ) -> Vec<usize> {
         let uncountable = !noun.word.ends_with('s')
             && ["food", "cutlery", "silverware", "produce", "fruit"].contains(&noun.word.as_str());
         let found = match phrase.quantity {
