@@ -11,6 +11,7 @@
 //! Deviations: durations do not split a step into start and end; numbers and derived predicates are not
 //! linked but keep the linear order of the steps that touch them.
 
+use std::cmp::Reverse;
 use std::collections::{BTreeSet, VecDeque};
 
 use crate::interpreter::{GroundAction, GroundCondition, Interpreter, Outcome, Violation, WorldState};
@@ -133,12 +134,12 @@ fn trace(
 impl Explainer<'_> {
     fn link_all(&mut self, goal: &GroundCondition) {
         for (i, step) in self.steps.iter().enumerate() {
-            let witness = step.action.precondition.witness(&self.states[i]).unwrap_or_default();
-            self.need(i, witness);
+            let witness = self.witness(i, &step.action.precondition);
+            self.need(i, witness.unwrap_or_default());
         }
         let end = self.steps.len();
-        let witness = goal.witness(&self.states[end]).unwrap_or_default();
-        self.need(end, witness);
+        let witness = self.witness(end, goal);
+        self.need(end, witness.unwrap_or_default());
         while let Some(Need { consumer, literal }) = self.queue.pop_front() {
             let producer = self.producer(consumer, &literal);
             if let Some(p) = producer {
@@ -151,6 +152,17 @@ impl Explainer<'_> {
             self.confront(producer, consumer, &literal);
             self.links.push(CausalLink { producer, consumer, literal });
         }
+    }
+
+    /// Why the condition holds before a step. Where there is a choice, what became true earliest and stays true
+    /// longest ties the step least to others.
+    fn witness(&self, at: usize, condition: &GroundCondition) -> Option<Vec<Literal>> {
+        let ties = |literal: &Literal| {
+            let after = at + 1..self.steps.len();
+            let undone = after.clone().find(|&i| can_undo(&self.steps[i].action, literal));
+            (self.producer(at, literal), Reverse(undone.unwrap_or(after.end)))
+        };
+        condition.witness_by(&self.states[at], &|literal| Some(ties(literal)))
     }
 
     fn need(&mut self, consumer: usize, literals: Vec<Literal>) {
@@ -179,10 +191,9 @@ impl Explainer<'_> {
 
     /// What had to be true for the step to have that effect, beyond its precondition.
     fn reason_of_effect(&self, step: usize, literal: &Literal) -> Vec<Literal> {
-        let before = &self.states[step];
         literal_effects(&self.steps[step].action)
             .filter(|(_, effect)| *effect == literal)
-            .find_map(|(condition, _)| condition.witness(before))
+            .find_map(|(condition, _)| self.witness(step, condition))
             .unwrap_or_default()
     }
 
@@ -191,7 +202,7 @@ impl Explainer<'_> {
     fn confront(&mut self, producer: Option<usize>, consumer: usize, literal: &Literal) {
         for i in producer.map_or(0, |p| p + 1)..consumer {
             let reasons: Vec<Literal> = undoing(&self.steps[i].action, literal)
-                .flat_map(|condition| negated(condition).witness(&self.states[i]).unwrap_or_default())
+                .flat_map(|condition| self.witness(i, &negated(condition)).unwrap_or_default())
                 .collect();
             self.need(i, reasons);
         }

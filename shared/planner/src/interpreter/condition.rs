@@ -53,12 +53,29 @@ impl GroundCondition {
     /// it is false. Of a disjunction, those of the first part that is true. Of a domain with axioms only basic
     /// facts are seen here: a derived fact counts as false.
     pub fn witness(&self, state: &WorldState) -> Option<Vec<Literal>> {
+        self.witness_by(state, &|_| ())
+    }
+
+    /// [`Self::witness`], but of a disjunction the true part whose dearest literal is cheapest by `cost`; the
+    /// first of several.
+    pub fn witness_by<C: Ord + Default>(
+        &self,
+        state: &WorldState,
+        cost: &impl Fn(&Literal) -> C,
+    ) -> Option<Vec<Literal>> {
         match self {
             GroundCondition::And(parts) => {
-                let witnesses = parts.iter().map(|part| part.witness(state)).collect::<Option<Vec<_>>>()?;
+                let witnesses =
+                    parts.iter().map(|part| part.witness_by(state, cost)).collect::<Option<Vec<_>>>()?;
                 Some(witnesses.concat())
             }
-            GroundCondition::Or(parts) => parts.iter().find_map(|part| part.witness(state)),
+            GroundCondition::Or(parts) => {
+                let mut holding = parts.iter().filter_map(|part| part.witness_by(state, cost));
+                let first = holding.next()?;
+                let Some(second) = holding.next() else { return Some(first) };
+                let dearest = |witness: &Vec<Literal>| witness.iter().map(cost).max().unwrap_or_default();
+                [first, second].into_iter().chain(holding).min_by_key(dearest)
+            }
             GroundCondition::Literal(literal) => {
                 (state.facts.contains(&literal.atom) == literal.holds).then(|| vec![literal.clone()])
             }
