@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::inflect::VerbForm;
-use super::lexicon::{Act, LONGEST, Lexicon, Settings};
+use super::lexicon::{Act, LONGEST, Lexicon, Noun, Settings};
 use super::phrase::NounAt;
 use super::scene::Scene;
 use super::syntax::{Clause, Head, Link, Phrase, Relation, is_determiner, is_function_word, preposition};
@@ -26,6 +26,8 @@ pub struct Parser<'a> {
     pub choices: Vec<String>,
     /// The place named last: "on one table … on another".
     pub(super) last_place: Option<Phrase>,
+    /// What was counted last: "two mugs … one … the other".
+    pub(super) counted: Option<Noun>,
     /// Whether the verb at hand still needs a place to put something.
     pub(super) wants_place: bool,
     /// Whether the clause at hand is negated: then "or" forbids both.
@@ -44,6 +46,7 @@ impl<'a> Parser<'a> {
             passed_over: Vec::new(),
             choices: Vec::new(),
             last_place: None,
+            counted: None,
             wants_place: false,
             negated: false,
         }
@@ -209,12 +212,7 @@ impl<'a> Parser<'a> {
             && moved
             && goes_somewhere(clause)
         {
-            let put = self
-                .lexicon
-                .verbs("put")
-                .into_iter()
-                .filter(|(_, p, verb)| p.is_empty() && verb.act == Act::Place);
-            clause.verbs = put.map(|(_, _, verb)| verb).collect();
+            clause.verbs = self.putting();
             clause.unknown.clear();
         }
     }
@@ -352,6 +350,7 @@ impl<'a> Parser<'a> {
             passed_over: Vec::new(),
             choices: Vec::new(),
             last_place: self.last_place.clone(),
+            counted: self.counted.clone(),
             wants_place: self.wants_place,
             negated: self.negated,
         }
@@ -370,18 +369,33 @@ impl<'a> Parser<'a> {
         if ahead.phrases(0).is_empty() {
             return false;
         }
+        // "I want the bread sliced, the egg in the fridge": the wish goes on, whatever is wished for.
+        let wished = clause.verbs.iter().all(|verb| verb.act == Act::Keep);
         ahead.position += usize::from(ahead.peek().is_some_and(is_going));
         if !clause.complement.is_empty() {
-            let rest = ahead.rest();
-            let states = |word: &&str| {
-                ["is", "are", "stays", "stay"].contains(word) || self.lexicon.adjective(&[word]).is_some()
-            };
-            return rest.first().is_some_and(states);
+            return ahead.state_told() || wished && ahead.goal_follows();
+        }
+        if wished && ahead.state_told() {
+            return true;
         }
         preposition(&ahead.rest())
             .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To | Relation::Near))
             || ahead.peek().is_some_and(|word| ["should", "must", "needs", "need"].contains(&word))
             || ahead.complements_follow()
+    }
+
+    /// Whether a state is told here: "is clean", "sliced".
+    fn state_told(&self) -> bool {
+        self.peek().is_some_and(|word| {
+            ["is", "are", "stays", "stay"].contains(&word)
+                || preposition(&[word]).is_none() && self.lexicon.adjective(&[word]).is_some()
+        })
+    }
+
+    /// Whether it is said here where something goes.
+    fn goal_follows(&self) -> bool {
+        preposition(&self.rest())
+            .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
     }
 
     /// Where the parser stands behind the things that come next.

@@ -100,8 +100,13 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 None => self.forbid(clause),
             };
         } else if clause.says_any(&["same", "likewise"]) && self.same_again(clause, &mut spoken) {
+        } else if let Some(mended) = left_so(clause).and_then(mended) {
+            spoken = self.complaint(clause, &mended);
         } else if let Some(verb) = self.choose(clause) {
             let liquid = !clause.objects.is_empty() && clause.objects.iter().all(|o| o.liquid().is_some());
+            let runs_in = |place: &Place| {
+                matches!(place.relation, Relation::In | Relation::To) && self.can_be_filled(&place.phrase)
+            };
             spoken = match verb.act {
                 Act::Place | Act::Hold | Act::Empty if liquid && self.poured_from(clause, verb).is_some() => {
                     let from = self.poured_from(clause, verb).into_iter().collect();
@@ -109,13 +114,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 }
                 Act::Set if liquid && self.runs_into(clause, verb) => self.fill(clause, verb),
                 _ if is_a_trip(clause, next) => self.trip(clause),
-                Act::Place | Act::Hold | Act::Keep
-                    if liquid
-                        && clause
-                            .places
-                            .iter()
-                            .any(|place| matches!(place.relation, Relation::In | Relation::To)) =>
-                {
+                Act::Place | Act::Hold | Act::Keep if liquid && clause.places.iter().any(runs_in) => {
                     self.fill(clause, verb)
                 }
                 Act::Go => self.go(clause, next),
@@ -138,9 +137,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             } else if clause.link == Link::While || next.is_some_and(speaks_of_it) {
                 spoken = self.only_mention(clause);
             } else if let Some(mended) = mended(clause) {
-                let text = format!("\"{}\" is taken as a complaint", clause.text);
-                self.discourse.assume(text, 0.8);
-                spoken = self.keep(&mended);
+                spoken = self.complaint(clause, &mended);
             } else {
                 self.discourse.problem(format!("it is not said what to do about \"{}\"", clause.text), 0.3);
             }
@@ -170,6 +167,13 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         self.discourse.spoken.push(spoken);
     }
 
+    /// "the pan is dirty", "someone left the fridge open": to be mended.
+    fn complaint(&mut self, clause: &Clause<'a>, mended: &Clause<'a>) -> Spoken {
+        let text = format!("\"{}\" is taken as a complaint", clause.text);
+        self.discourse.assume(text, 0.8);
+        self.keep(mended)
+    }
+
     /// "do the same with the spoon": all that was asked for of the thing spoken of last.
     fn same_again(&mut self, clause: &Clause<'a>, spoken: &mut Spoken) -> bool {
         let model = self.discourse.spoken.iter().rev().find_map(|spoken| spoken.objects.last().copied());
@@ -186,6 +190,16 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             }
         }
         !spoken.objects.is_empty()
+    }
+
+    /// Whether a liquid can be put into what a phrase names: wine in the fridge stays in its bottle.
+    fn can_be_filled(&self, phrase: &Phrase) -> bool {
+        let scene = self.discourse.scene;
+        match &phrase.head {
+            Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, "canFillWithLiquid")),
+            Head::Named(_) | Head::Pronoun { .. } => true,
+            _ => false,
+        }
     }
 
     /// "tip the water out of the mug": the mug.
@@ -387,7 +401,8 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         let switched: Vec<usize> =
             objects.iter().map(|&entity| self.switch_of(entity, &clause.complement)).collect();
         for &entity in &switched {
-            self.add_states(entity, &clause.complement);
+            let states = self.discourse.possible_states(entity, clause.complement.clone());
+            self.add_states(entity, &states);
         }
         self.keep_on_the_way(clause, &switched);
         if !clause.complement.is_empty() && clause.objects.iter().any(|phrase| self.is_movable(phrase)) {
@@ -442,12 +457,17 @@ fn is_a_trip(clause: &Clause<'_>, next: Option<&Clause<'_>>) -> bool {
         && !clause.places.is_empty()
         && clause.places.iter().all(to_sink)
         && next
-            .is_some_and(|next| !next.negated && speaks_of_it(next) && next.verbs.iter().any(|v| washes(&v)))
+            .is_some_and(|next| !next.negated && speaks_of_it(next) && next.verbs.iter().any(washes))
 }
 
 /// "the pan needs to be washed"
 fn is_need(word: &str) -> bool {
     ["need", "needs", "has", "have", "want", "wants", "ought", "had"].contains(&word)
+}
+
+/// "somebody left the lamp on": tells what was done, and asks for nothing by its words.
+fn left_so<'c, 'a>(clause: &'c Clause<'a>) -> Option<&'c Clause<'a>> {
+    (clause.verb_text == "left" && !clause.complement.is_empty() && !clause.wants()).then_some(clause)
 }
 
 /// What a complaint asks for: what is dirty is to be clean, what was left open is to be closed.

@@ -328,6 +328,10 @@ impl<'a> Discourse<'a> {
         let mut found = BTreeSet::new();
         for phrase in except {
             match &phrase.head {
+                Head::Noun(noun) if !noun.class => {
+                    let here = noun.kinds.iter().find(|kind| self.scene.has(kind));
+                    found.extend(here.or(noun.kinds.first()).cloned());
+                }
                 Head::Noun(noun) => found.extend(noun.kinds.iter().cloned()),
                 Head::Named(name) => {
                     found.insert(name.clone());

@@ -329,7 +329,8 @@ fn says_state(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
         syntax::Head::Named(_) => true,
         _ => false,
     };
-    clause.verbs.iter().any(|verb| matches!(verb.act, Act::Keep | Act::Place))
+    clause.wants()
+        && clause.verbs.iter().any(|verb| matches!(verb.act, Act::Keep | Act::Place))
         && !clause.complement.is_empty()
         && !clause.objects.is_empty()
         && clause.objects.iter().all(is_here)

@@ -60,6 +60,13 @@ impl Parser<'_> {
             }
         }
         self.after_head(&mut phrase, depth);
+        if let (Head::Noun(noun), Quantity::Count(_) | Quantity::Plural | Quantity::All) =
+            (&phrase.head, phrase.quantity)
+        {
+            self.counted = Some(noun.clone());
+        } else if let (Head::Noun(noun), Some("one")) = (&phrase.head, self.words.get(start).map(String::as_str)) {
+            self.counted = Some(noun.clone());
+        }
         phrase.text = self.text_between(start, self.position);
         Some(phrase)
     }
@@ -73,6 +80,9 @@ impl Parser<'_> {
                 continue;
             }
             if let Some(head) = self.by_use(front) {
+                return Some(head);
+            }
+            if let Some(head) = self.one_of_the_counted(word, front) {
                 return Some(head);
             }
             if let Some(head) = self.pronoun(word, front) {
@@ -396,6 +406,12 @@ impl Parser<'_> {
                     }
                 }
                 Some(mut phrase) => {
+                    let comma = self.words.get(start).is_some_and(|word| word == ",");
+                    if let (true, [class]) = (comma, found.as_slice())
+                        && is_one_of(&phrase, class)
+                    {
+                        found.clear();
+                    }
                     // "all the cabinets and drawers"
                     let all = found.last().is_some_and(|last| last.quantity == Quantity::All);
                     if all && phrase.quantity == Quantity::Plural {
@@ -442,6 +458,17 @@ impl Parser<'_> {
     pub(super) fn longest_noun_at(&self, position: usize) -> Option<(Noun, bool, usize)> {
         let (noun, plural, length) = (*self.nouns.get(position)?)?;
         Some((noun.clone(), plural, length))
+    }
+}
+
+/// "the food: the apple goes …", "both vegetables, the lettuce and …": whether one phrase names a member of
+/// another's class.
+pub(super) fn is_one_of(phrase: &Phrase, class: &Phrase) -> bool {
+    match (&phrase.head, &class.head) {
+        (Head::Noun(one), Head::Noun(class)) => {
+            class.class && !one.class && one.kinds.first().is_some_and(|kind| class.kinds.contains(kind))
+        }
+        _ => false,
     }
 }
 

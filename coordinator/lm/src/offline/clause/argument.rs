@@ -1,7 +1,7 @@
 //! What stands behind a verb besides its objects: particles, complements, places.
 
 use super::super::inflect::VerbForm;
-use super::super::lexicon::{Act, Verb};
+use super::super::lexicon::{Act, Settings, Verb};
 use super::super::syntax::{
     Clause, Head, Phrase, Place, Relation, is_determiner, is_function_word, preposition,
 };
@@ -88,15 +88,15 @@ impl<'a> Parser<'a> {
         }
         clause.places = vec![Place::new(Relation::In, "in", vessel.clone())];
         clause.objects = things;
-        clause.verbs = self
-            .lexicon
-            .verbs("put")
-            .into_iter()
-            .filter(|(_, p, _)| p.is_empty())
-            .map(|(_, _, v)| v)
-            .collect();
+        clause.verbs = self.putting();
         clause.verb_text = "put".to_owned();
         true
+    }
+
+    /// The verb of what is to be put somewhere, where no verb says so.
+    pub(super) fn putting(&self) -> Vec<&'a Verb> {
+        let put = self.lexicon.verbs("put").into_iter();
+        put.filter(|(_, p, verb)| p.is_empty() && verb.act == Act::Place).map(|(_, _, verb)| verb).collect()
     }
 
     /// "put it where it belongs": more than one word behind the object.
@@ -162,7 +162,9 @@ impl<'a> Parser<'a> {
             let ends = behind.is_none_or(|next| {
                 [",", ".", "and", "then", "before", "after", "while", "but", "so", "again", "please"]
                     .contains(next)
+                    || ["when", "once", "if", "until", "as", "at"].contains(next)
                     || preposition(&[next]).is_some() && self.position > start
+                    || self.position > start && self.ahead(length).clause_starts_here(false)
                     || *next == "of" && rest[..length] == ["full"]
                     || self.lexicon.longest_small("polite", &rest[length..]).is_some_and(|length| length > 1)
             });
@@ -171,12 +173,20 @@ impl<'a> Parser<'a> {
                 || (particle
                     && !(clause.verbs.is_empty()
                         && clause.unknown.is_empty()
-                        && behind.is_none_or(|b| [",", ".", "and", "please"].contains(b)))
+                        && behind.is_none_or(|b| {
+                            [",", ".", "and", "please", "when", "once", "if", "until", "at"].contains(b)
+                        }))
                     && clause.verbs.iter().all(|verb| verb.act != Act::Keep && verb.act != Act::Place))
             {
                 continue;
             }
-            for (property, value) in &adjective.set {
+            // "it is cooked" is said of what was done; "a cooked potato" is first of all a hot one.
+            let cooked = Settings::from([("isCooked".to_owned(), super::super::yes())]);
+            let is_cooking = |(form, _, verb): &(VerbForm, &[String], &Verb)| {
+                *form == VerbForm::Past && verb.act == Act::Cook
+            };
+            let done = self.lexicon.verbs(rest[0]).iter().any(is_cooking);
+            for (property, value) in if done { &cooked } else { &adjective.set } {
                 let value = if negated { super::super::opposite(value) } else { value.clone() };
                 clause.complement.insert(property.clone(), value);
             }
@@ -254,6 +264,14 @@ impl<'a> Parser<'a> {
         }
         let Some(word) = ahead.peek() else { return false };
         let behind = rest.get(1..).unwrap_or_default();
+        let kept_there = ["kept", "left"].contains(&word) && ahead.ahead(1).place_length().is_some();
+        if kept_there {
+            clause.verbs = self.putting();
+            clause.verb_text = "put".to_owned();
+            self.wants_place = true;
+            self.position += length + 1;
+            return true;
+        }
         let changes = |verb: &Verb| !matches!(verb.act, Act::Keep | Act::Go | Act::Use | Act::Hold);
         let found: Vec<_> = self
             .lexicon

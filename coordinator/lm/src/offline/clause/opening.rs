@@ -56,6 +56,10 @@ impl Parser<'_> {
                 opening.robots.push(robot);
                 continue;
             }
+            if let Some(length) = self.somebody() {
+                self.position += length;
+                continue;
+            }
             if self.reason() {
                 continue;
             }
@@ -65,6 +69,7 @@ impl Parser<'_> {
                 "go" | "come" if self.another_verb_follows() => {}
                 "should" | "shall" | "must" | "can" | "has" | "will" if !opening.robots.is_empty() => {}
                 "have" | "let" if self.ahead(1).robot().is_some() => {}
+                "that" if self.word_at(1).is_some_and(super::super::syntax::is_determiner) => {}
                 "if" => {
                     opening.condition = true;
                     opening.before_previous = !first && !self.is_fronted();
@@ -125,6 +130,31 @@ impl Parser<'_> {
             |verbs: &[&super::super::lexicon::Verb]| verbs.iter().any(|verb| verb.act == Act::Place);
         let puts = self.ahead(person + 2).verbs_here().is_some_and(|(_, verbs, _)| placing(&verbs));
         (can && puts).then_some(person + 2)
+    }
+
+    /// "(while) another slices the bread", "the other one washes …": somebody does it, and no matter who.
+    fn somebody(&self) -> Option<usize> {
+        const WHO: [&[&str]; 7] = [
+            &["the", "other", "one"],
+            &["the", "other"],
+            &["the", "others"],
+            &["another", "one"],
+            &["another"],
+            &["others"],
+            &["one"],
+        ];
+        let rest = self.rest();
+        WHO.iter().find(|who| rest.starts_with(who)).map(|who| who.len()).filter(|&length| {
+            let behind = self.ahead(length);
+            let word = behind.peek().unwrap_or_default();
+            let does = word.ends_with('s') || ["should", "can", "will", "must"].contains(&word);
+            does && behind.verbs_here().is_some()
+                && !["goes", "belongs", "is"].contains(&word)
+                && behind.word_at(1).is_some_and(|next| {
+                    super::super::syntax::is_determiner(next) || ["it", "them", "on", "off"].contains(&next)
+                        || behind.ahead(1).verbs_here().is_some()
+                })
+        })
     }
 
     /// "go turn on the lamp": the going says nothing.

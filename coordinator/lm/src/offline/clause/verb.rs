@@ -80,6 +80,9 @@ impl<'a> Parser<'a> {
         {
             return true;
         }
+        if word == "that" && self.word_at(1).is_some_and(|next| is_determiner(next) && next != "one") {
+            return true;
+        }
         let rest = self.rest();
         let negation = word == "never" || rest.starts_with(&["do", "not"]);
         if negation

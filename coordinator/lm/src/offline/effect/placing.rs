@@ -2,6 +2,7 @@
 
 use super::super::lexicon::{Act, Verb};
 use super::super::mention::Spoken;
+use super::super::phrase::is_one_of;
 use super::super::syntax::{Clause, Head, Link, Phrase, Place, Relation};
 use super::{Change, Interpreter};
 
@@ -353,15 +354,5 @@ impl<'a> Interpreter<'_, 'a> {
             .filter_map(|parent| scene.named(parent))
             .map(|parent| parent.kind.clone())
             .next()
-    }
-}
-
-/// "the food: the apple goes …": whether one phrase names a member of another's class.
-fn is_one_of(phrase: &Phrase, class: &Phrase) -> bool {
-    match (&phrase.head, &class.head) {
-        (Head::Noun(one), Head::Noun(class)) => {
-            class.class && one.kinds.iter().any(|kind| class.kinds.contains(kind))
-        }
-        _ => false,
     }
 }

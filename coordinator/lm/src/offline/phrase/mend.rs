@@ -1,9 +1,10 @@
 //! What is left out or miswritten in a noun phrase.
 
 use super::super::clause::Parser;
+use super::super::inflect;
 use super::super::lexicon::Noun;
 use super::super::scene::Scene;
-use super::super::syntax::{Quantity, preposition};
+use super::super::syntax::{Head, Quantity, preposition};
 use super::Front;
 
 impl Parser<'_> {
@@ -43,6 +44,37 @@ impl Parser<'_> {
         front.quantity = Some(Quantity::Count(2));
         self.position += length;
         true
+    }
+
+    /// "two mugs … one … the other (one)", "three books … two … the third": of those that were counted.
+    pub(super) fn one_of_the_counted(&mut self, word: &str, front: &mut Front) -> Option<Head> {
+        const ORDINALS: [&str; 4] = ["first", "second", "third", "last"];
+        let noun = self.counted.clone()?;
+        let ends = |parser: &Self, at: usize| {
+            parser.word_at(at).is_none_or(|next| {
+                ",.".contains(next) || preposition(&[next]).is_some() || ["and", "goes", "go", "should"].contains(&next)
+            })
+        };
+        let number = inflect::number(word);
+        let one = self.word_at(1).is_some_and(|next| ["one", "ones"].contains(&next));
+        let (length, other) = match word {
+            "other" | "others" | "remaining" | "second" | "third" | "last" | "first"
+                if front.phrase.definite && (one || ends(self, 1)) && !(word == "others") =>
+            {
+                (1 + usize::from(one), !ORDINALS[..1].contains(&word))
+            }
+            _ if number.is_some() && ends(self, 1) => (1, front.phrase.other),
+            _ => return None,
+        };
+        self.position += length;
+        front.phrase.other = other;
+        front.phrase.indefinite = true;
+        front.phrase.definite = false;
+        front.quantity = Some(match number {
+            Some(count) if count > 1 => Quantity::Count(count),
+            _ => Quantity::One,
+        });
+        Some(Head::Noun(noun))
     }
 
     /// A verb where a noun is due, a letter away from what the scene has: "put the clean put on the stove".
