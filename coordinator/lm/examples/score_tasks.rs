@@ -174,7 +174,15 @@ fn constructions(sentence: &str) -> String {
 
 /// What kind of thing a question is about.
 fn about(text: &str) -> &'static str {
-    const ABOUT: [(&str, &str); 7] = [
+    const ABOUT: [(&str, &str); 15] = [
+        ("is not said what the slices", "slices of nothing"),
+        ("is not said what the water", "water in nothing"),
+        ("is not said what to do about", "a state told, not asked for"),
+        ("what \"it\" is", "a singular pronoun of nothing"),
+        ("what \"them\" is", "a plural pronoun of nothing"),
+        ("is not openable", "what does not open is to"),
+        ("is not toggleable", "what has no switch is switched"),
+        ("is not ", "what cannot change so"),
         ("I do not know what \"", "a noun or verb unknown"),
         ("I do not know what to do", "no order found"),
         ("there is no ", "something absent"),

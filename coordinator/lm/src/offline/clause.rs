@@ -196,21 +196,26 @@ impl<'a> Parser<'a> {
         if let Some(previous) = previous.filter(|_| clause.verbs.is_empty() && clause.unknown.is_empty()) {
             clause.go_on(previous);
         }
-        self.understood_verb(&mut clause);
+        self.understood_verb(&mut clause, start);
         clause.text = self.text_between(start, self.position);
         (!clause.text.is_empty()).then_some(clause)
     }
 
     /// "apple in the fridge", "the fork goes in the drawer": to be put there.
-    fn understood_verb(&self, clause: &mut Clause<'a>) {
+    fn understood_verb(&self, clause: &mut Clause<'a>, start: usize) {
         let goes = |word: &String| is_going(word);
-        let told = self.words.iter().any(|word| ["is", "are", "was", "were"].contains(&word.as_str()));
-        let moved = clause.objects.iter().all(|phrase| self.is_movable(phrase)) && !clause.objects.is_empty();
+        let said = self.words.get(start..self.position).unwrap_or_default();
+        let told = said.iter().any(|word| ["is", "are", "was", "were"].contains(&word.as_str()));
+        let going = !clause.unknown.is_empty();
+        let pronoun = |phrase: &Phrase| going && matches!(phrase.head, Head::Pronoun { .. });
+        let moved = clause.objects.iter().all(|phrase| self.is_movable(phrase) || pronoun(phrase))
+            && !clause.objects.is_empty();
+        let beside = going && clause.places.iter().any(|place| place.relation == Relation::Near);
         if clause.verbs.is_empty()
             && clause.unknown.iter().all(goes)
             && !told
             && moved
-            && goes_somewhere(clause)
+            && (goes_somewhere(clause) || beside)
         {
             clause.verbs = self.putting();
             clause.unknown.clear();
@@ -234,6 +239,12 @@ impl<'a> Parser<'a> {
                 || self.complement(clause)
                 || self.place(clause)
             {
+                continue;
+            }
+            // "the fork and the spoon both in the drawer"
+            let floating = ["both", "all", "each"].contains(&word) && !clause.objects.is_empty();
+            if floating && self.word_at(1).is_some_and(|next| preposition(&[next]).is_some() && next != "of") {
+                self.position += 1;
                 continue;
             }
             if matches!(word, "," | "and" | "or") {
@@ -279,6 +290,7 @@ impl<'a> Parser<'a> {
             "do" if next == "not" => self.position > start,
             "never" | "if" => self.position > start,
             "." => true,
+            "," | "and" if self.is_complete(clause) && self.new_subject_follows() => true,
             "," | "and" => {
                 let mut ahead = self.ahead(1);
                 if ahead.peek() == Some("and") || ahead.peek() == Some(",") {
@@ -305,6 +317,13 @@ impl<'a> Parser<'a> {
             }
             _ => self.position > start && !clause.objects.is_empty() && self.verb_reads_as_clause(),
         }
+    }
+
+    /// Whether a clause says what is done to what, or where something goes.
+    fn is_complete(&self, clause: &Clause<'a>) -> bool {
+        let does = clause.verbs.iter().any(|verb| verb.act != Act::Keep);
+        let put = places(clause) && !clause.places.is_empty();
+        put || !clause.objects.is_empty() && (does || !clause.places.is_empty() || !clause.complement.is_empty())
     }
 
     /// "… to be put in the sink": what was spoken of is to be put there.
@@ -407,7 +426,8 @@ impl<'a> Parser<'a> {
     }
 
     fn complements_follow(&self) -> bool {
-        self.peek().is_some_and(|word| ["off", "on"].contains(&word))
+        let ends = self.word_at(1).is_none_or(|next| [".", ",", "and", "then", "when", "once"].contains(&next));
+        self.peek().is_some_and(|word| ["off", "on"].contains(&word) || word == "out" && ends)
     }
 }
 
@@ -416,9 +436,13 @@ fn goes_somewhere(clause: &Clause<'_>) -> bool {
     clause.places.iter().any(|place| matches!(place.relation, Relation::In | Relation::To))
 }
 
-/// "the fork goes in the drawer"
+/// "the fork goes in the drawer", "the bat leans on the wall": verbs of where things are to be.
 pub(super) fn is_going(word: &str) -> bool {
-    ["goes", "go", "belongs", "belong"].contains(&word)
+    const GOING: [&str; 13] = [
+        "goes", "go", "belongs", "belong", "leans", "lean", "stays", "stay", "hangs", "moves", "move",
+        "comes", "come",
+    ];
+    GOING.contains(&word)
 }
 
 /// Whether a clause's verb puts things somewhere.

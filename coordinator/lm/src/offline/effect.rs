@@ -4,7 +4,7 @@ use lamma_domains::goal::PropertyValue;
 
 use super::lexicon::{Act, Settings, Verb};
 use super::mention::{Discourse, Spoken};
-use super::syntax::{Clause, Head, Link, Phrase, Place, Relation};
+use super::syntax::{Clause, Head, Phrase, Place, Relation};
 
 /// What a clause makes of an entity.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,9 +104,6 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             spoken = self.complaint(clause, &mended);
         } else if let Some(verb) = self.choose(clause) {
             let liquid = !clause.objects.is_empty() && clause.objects.iter().all(|o| o.liquid().is_some());
-            let runs_in = |place: &Place| {
-                matches!(place.relation, Relation::In | Relation::To) && self.can_be_filled(&place.phrase)
-            };
             spoken = match verb.act {
                 Act::Place | Act::Hold | Act::Empty if liquid && self.poured_from(clause, verb).is_some() => {
                     let from = self.poured_from(clause, verb).into_iter().collect();
@@ -114,7 +111,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 }
                 Act::Set if liquid && self.runs_into(clause, verb) => self.fill(clause, verb),
                 _ if is_a_trip(clause, next) => self.trip(clause),
-                Act::Place | Act::Hold | Act::Keep if liquid && clause.places.iter().any(runs_in) => {
+                Act::Place | Act::Hold | Act::Keep if liquid && clause.places.iter().any(|place| self.runs_in(place)) => {
                     self.fill(clause, verb)
                 }
                 Act::Go => self.go(clause, next),
@@ -130,48 +127,13 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 Act::Fill | Act::Pour => self.fill(clause, verb),
                 Act::Empty => self.empty(clause),
             };
-        } else if !clause.complement.is_empty() {
-            // "the lamp should be off" asks for it; "the lamp is off" only says so.
-            if clause.wants() {
-                spoken = self.keep(clause);
-            } else if clause.link == Link::While || next.is_some_and(speaks_of_it) {
-                spoken = self.only_mention(clause);
-            } else if let Some(mended) = mended(clause) {
-                spoken = self.complaint(clause, &mended);
-            } else {
-                self.discourse.problem(format!("it is not said what to do about \"{}\"", clause.text), 0.3);
-            }
-        } else if next.is_some_and(speaks_of_it) && clause.unknown.iter().all(|word| is_need(word)) {
-            spoken = self.only_mention(clause);
-        } else if clause.unknown.is_empty() && clause.says_any(&["want", "need", "like", "love", "fancy"]) {
-            spoken = self.bring(clause);
-        } else if clause.is_remark() && (next.is_some() || index > 0) {
-            // Why something is wanted is no order.
-            self.discourse.assume(format!("took \"{}\" as a remark", clause.text), 0.9);
-            spoken = self.only_mention(clause);
-            self.spoke = next.is_some_and(speaks_of_it);
-        } else if !clause.objects.is_empty()
-            && clause.unknown.is_empty()
-            && clause.places.is_empty()
-            && next.is_some_and(|next| !next.verbs.is_empty())
-        {
-            // "The dishes: wash the plate and the cup."
-            self.discourse.assume(format!("took \"{}\" as what is spoken of", clause.text), 0.9);
-            spoken = self.only_mention(clause);
-        } else if !clause.objects.is_empty() || !clause.unknown.is_empty() {
-            self.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.25);
+        } else {
+            spoken = self.without_verb(index, clause, next);
         }
         for word in clause.unknown.iter().skip(usize::from(clause.verbs.is_empty())) {
             self.discourse.assume(format!("passed over \"{word}\""), 0.85);
         }
         self.discourse.spoken.push(spoken);
-    }
-
-    /// "the pan is dirty", "someone left the fridge open": to be mended.
-    fn complaint(&mut self, clause: &Clause<'a>, mended: &Clause<'a>) -> Spoken {
-        let text = format!("\"{}\" is taken as a complaint", clause.text);
-        self.discourse.assume(text, 0.8);
-        self.keep(mended)
     }
 
     /// "do the same with the spoon": all that was asked for of the thing spoken of last.
@@ -192,10 +154,13 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         !spoken.objects.is_empty()
     }
 
-    /// Whether a liquid can be put into what a phrase names: wine in the fridge stays in its bottle.
-    fn can_be_filled(&self, phrase: &Phrase) -> bool {
+    /// Whether a liquid can be put into a place: wine in the fridge stays in its bottle.
+    fn runs_in(&self, place: &Place) -> bool {
         let scene = self.discourse.scene;
-        match &phrase.head {
+        if !matches!(place.relation, Relation::In | Relation::To) {
+            return false;
+        }
+        match &place.phrase.head {
             Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, "canFillWithLiquid")),
             Head::Named(_) | Head::Pronoun { .. } => true,
             _ => false,
@@ -233,31 +198,6 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         let spoken = self.only_mention(&Clause { places: Vec::new(), ..clause.clone() });
         let reached = self.receptacles_spoken_of(&Clause { objects: Vec::new(), ..clause.clone() });
         Spoken { reached, ..spoken }
-    }
-
-    /// "the pan is dirty, wash it": only says what is spoken of.
-    fn only_mention(&mut self, clause: &Clause<'a>) -> Spoken {
-        let mut objects = Vec::new();
-        let scene = self.discourse.scene;
-        let is_here = |phrase: &&Phrase| match &phrase.head {
-            Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.has(kind)),
-            Head::Named(_) => true,
-            _ => false,
-        };
-        for phrase in clause.objects.iter().filter(is_here) {
-            objects.extend(self.discourse.mention(phrase, &clause.places, None));
-        }
-        self.spoke = true;
-        Spoken { objects, ..Spoken::default() }
-    }
-
-    /// "I need a fork", "I want a cold apple": to be brought, or to be so.
-    fn bring(&mut self, clause: &Clause<'a>) -> Spoken {
-        let objects = self.objects(clause, &clause.places, Some("pickupable"));
-        if objects.iter().all(|&entity| self.discourse.entities[entity].asked.is_empty()) {
-            self.take(&objects);
-        }
-        Spoken { objects, ..Spoken::default() }
     }
 
     /// The first reading of the verb whose object can be had.
@@ -460,29 +400,6 @@ fn is_a_trip(clause: &Clause<'_>, next: Option<&Clause<'_>>) -> bool {
             .is_some_and(|next| !next.negated && speaks_of_it(next) && next.verbs.iter().any(washes))
 }
 
-/// "the pan needs to be washed"
-fn is_need(word: &str) -> bool {
-    ["need", "needs", "has", "have", "want", "wants", "ought", "had"].contains(&word)
-}
-
-/// "somebody left the lamp on": tells what was done, and asks for nothing by its words.
-fn left_so<'c, 'a>(clause: &'c Clause<'a>) -> Option<&'c Clause<'a>> {
-    (clause.verb_text == "left" && !clause.complement.is_empty() && !clause.wants()).then_some(clause)
-}
-
-/// What a complaint asks for: what is dirty is to be clean, what was left open is to be closed.
-fn mended<'a>(clause: &Clause<'a>) -> Option<Clause<'a>> {
-    let complaint = clause.says_any(&["left", "still"]) || clause.complement.contains_key("isDirty");
-    let bad = clause.complement.values().all(|value| *value == super::yes());
-    (complaint && bad).then(|| {
-        let mut mended = clause.clone();
-        for value in mended.complement.values_mut() {
-            *value = super::opposite(value);
-        }
-        mended
-    })
-}
-
 /// Whether a phrase may be a lamp.
 fn is_lamp(phrase: &Phrase) -> bool {
     matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| kind == "DeskLamp" || kind == "FloorLamp"))
@@ -501,3 +418,7 @@ mod changing;
 mod forbid;
 mod holding;
 mod placing;
+mod telling;
+
+pub(in crate::offline) use telling::untrue_place;
+use telling::{left_so, mended};

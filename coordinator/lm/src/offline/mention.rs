@@ -114,6 +114,10 @@ impl<'a> Discourse<'a> {
         let found = match &phrase.head {
             Head::Noun(noun) => self.noun(noun, phrase, at, wants),
             Head::Named(name) => self.named(name),
+            Head::Pronoun { .. } if phrase.other || matches!(phrase.quantity, Quantity::Count(_)) => {
+                self.some_of_them(phrase)
+            }
+            Head::Pronoun { .. } if is_all_of_it(&phrase.text) => self.all_of_it(wants),
             Head::Pronoun { plural } => self.pronoun(*plural, wants),
             Head::Slices => self.slices(matches!(phrase.quantity, Quantity::Plural | Quantity::All)),
             Head::Everything => self.everything(phrase, at, wants),
@@ -260,6 +264,12 @@ impl<'a> Discourse<'a> {
             return self.class(noun, &kinds, phrase, at);
         }
         match phrase.quantity {
+            Quantity::All if phrase.other => {
+                let kind = kinds.first().cloned().unwrap_or_default();
+                let named = self.entities.iter().filter(|entity| entity.kind() == kind).count();
+                let left = self.scene.of_kind(&kind).len().saturating_sub(named);
+                self.several(&[kind], left, phrase, at)
+            }
             Quantity::One => vec![self.one(kinds, phrase, at)],
             Quantity::Count(count) => self.several(&kinds, count, phrase, at),
             Quantity::Plural => {
@@ -391,6 +401,11 @@ impl<'a> Discourse<'a> {
             _ => true,
         }
     }
+}
+
+/// "it all", "all of that": whatever was spoken of.
+fn is_all_of_it(text: &str) -> bool {
+    ["it all", "that all", "this all", "all of it", "all of that", "all of this", "all that", "all this"].contains(&text)
 }
 
 /// The states of what is full of a liquid.

@@ -191,6 +191,7 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         .map(|token| (token.typed.clone(), token.text.clone()))
         .collect();
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
+    let words = text::without_asides(words, lexicon);
     let mut reading = word_by_word(&words, lexicon, scene);
     let strong = situation::ranked(lexicon.situations(), &situation::words_of(&words), true);
     let explained = strong.first().map_or(0, |(_, explained)| *explained);
@@ -344,6 +345,7 @@ fn says_where(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
         _ => false,
     };
     let moves = clause.verbs.iter().any(|verb| matches!(verb.act, Act::Place | Act::Hold));
+    let wished = clause.verbs.iter().all(|verb| verb.act == Act::Keep);
     let goal = |place: &syntax::Place| {
         matches!(place.relation, syntax::Relation::In | syntax::Relation::To)
             && is_here(&place.phrase, "receptacle")
@@ -353,7 +355,9 @@ fn says_where(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
             && is_here(&place.phrase, "canFillWithLiquid")
     };
     let liquid = clause.objects.iter().any(|phrase| phrase.liquid().is_some());
-    moves
+    effect::untrue_place(clause, scene).is_some()
+        || wished && liquid && clause.places.iter().any(fills)
+        || moves
         && (clause.objects.iter().any(|phrase| is_here(phrase, "pickupable"))
             && clause.places.iter().any(goal)
             || liquid && clause.places.iter().any(fills))

@@ -151,7 +151,8 @@ impl Parser<'_> {
         if is_function_word(word) || ",.".contains(word) || self.lexicon.is_small("polite", &[word]) {
             return None;
         }
-        if !self.lexicon.verbs(word).is_empty() && self.position == start {
+        let going = super::clause::is_going(word);
+        if (going || !self.lexicon.verbs(word).is_empty()) && self.position == start {
             return None;
         }
         let known_modifier = self.lexicon.is_small("modifiers", &[word]);
@@ -192,6 +193,8 @@ impl Parser<'_> {
         let next = self.word_at(1);
         let alone = next.is_none_or(|next| {
             (is_function_word(next) && !is_determiner(next) && next != "of")
+                || super::clause::is_going(next)
+                || ["need", "needs"].contains(&next)
                 || ",.".contains(next)
                 || word == "both"
                     && self.lexicon.adjective(&[next]).is_some()
@@ -199,10 +202,14 @@ impl Parser<'_> {
         });
         let head = match word {
             "it" if self.is_miswritten_its(word) => return None,
+            "it" | "this" | "that" if self.all_of_it_follows() => {
+                self.position += 1;
+                Head::Pronoun { plural: true }
+            }
             "it" | "him" => Head::Pronoun { plural: false },
             "them" | "they" => Head::Pronoun { plural: true },
             "this" | "that" | "one" if alone && self.can_be_pronoun() => Head::Pronoun { plural: false },
-            "these" | "those" | "both" | "ones" | "all" if alone => Head::Pronoun { plural: true },
+            "these" | "those" | "both" | "ones" | "all" | "each" if alone => Head::Pronoun { plural: true },
             "everything" | "anything" | "stuff" => Head::Everything,
             "things" | "items" | "objects"
                 if front.phrase.definite || front.quantity == Some(Quantity::All) =>
@@ -393,7 +400,7 @@ impl Parser<'_> {
         loop {
             let start = self.position;
             let joined = self.skip_joins();
-            if !joined || self.clause_starts_here(false) {
+            if !joined || self.clause_starts_here(false) || self.another_subject(depth > 0) {
                 self.position = start;
                 return found;
             }
@@ -431,6 +438,19 @@ impl Parser<'_> {
                 }
             }
         }
+    }
+
+    /// ", each goes into the bowl", "a box with a bat, the ball goes …": something is said of what comes next.
+    fn another_subject(&self, of_contents: bool) -> bool {
+        let pronoun = self.peek().is_some_and(|word| ["each", "both", "they", "it", "these", "those"].contains(&word));
+        if !pronoun && !of_contents {
+            return false;
+        }
+        let mut ahead = self.ahead(0);
+        ahead.phrase(DEEPEST).is_some()
+            && ahead.peek().is_some_and(|word| {
+                super::clause::is_going(word) || ["should", "must", "need", "needs", "is", "are"].contains(&word)
+            })
     }
 
     /// Passes over "and", commas and the like between noun phrases.

@@ -223,7 +223,11 @@ impl Clause<'_> {
         self.says_any(&[
             "should", "must", "needs", "need", "shall", "be", "once", "when", "after", "before", "until",
         ]) || !self.says_any(&["is", "are", "was", "were", "left", "s"]) && !self.says_any(&["while"])
-            || self.words.iter().find(|word| ![",", "and"].contains(&word.as_str())).is_some_and(|w| w == "that")
+            || self
+                .words
+                .iter()
+                .find(|word| ![",", "and"].contains(&word.as_str()))
+                .is_some_and(|first| first == "that" || first == "so")
     }
 
     /// Whether its verb is that of the clause before it, not said again.

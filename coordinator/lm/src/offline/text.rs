@@ -42,8 +42,18 @@ pub fn tokens(instruction: &str) -> Vec<Token> {
             found.push(Token { text: POSSESSIVE.to_owned(), typed: String::new() });
         }
     };
-    for c in instruction.chars() {
+    let mut before = ' ';
+    let mut letters = instruction.chars().peekable();
+    while let Some(c) = letters.next() {
+        // " - " sets something apart; "t-shirt" does not.
+        let apart = c == '-' && before == ' ' && letters.peek() == Some(&' ');
+        before = c;
         match c {
+            '\u{2013}' | '\u{2014}' | '(' | ')' => {
+                flush(&mut word, &mut found);
+                found.push(Token { text: ",".to_owned(), typed: c.to_string() });
+            }
+            '-' if apart => found.push(Token { text: ",".to_owned(), typed: c.to_string() }),
             c if c.is_alphanumeric() || c == '_' => word.push(c),
             '\'' | '\u{2019}' | '`' => word.push('\''),
             ',' | ';' | '.' | '!' | '?' | ':' | '\n' => {
@@ -208,6 +218,30 @@ fn ending(words: &[String], lexicon: &Lexicon) -> Option<usize> {
         let last: Vec<&str> = words[words.len() - length..].iter().map(String::as_str).collect();
         lexicon.is_small("endings", &last)
     })
+}
+
+/// Words without what is put in between commas and says nothing: "the bread, however, goes …".
+pub fn without_asides(words: Vec<String>, lexicon: &Lexicon) -> Vec<String> {
+    let aside = |at: usize| {
+        words[at] == ","
+            && (1..=super::lexicon::LONGEST).any(|length| {
+                let between: Option<Vec<&str>> =
+                    (at + 1..=at + length).map(|i| words.get(i).map(String::as_str)).collect();
+                words.get(at + length + 1).is_some_and(|word| word == ",")
+                    && between.is_some_and(|between| lexicon.is_small("asides", &between))
+            })
+    };
+    let mut kept = Vec::with_capacity(words.len());
+    let mut at = 0;
+    while at < words.len() {
+        if aside(at) {
+            at += 1 + words[at + 1..].iter().position(|word| word == ",").unwrap_or(0) + 1;
+        } else {
+            kept.push(words[at].clone());
+            at += 1;
+        }
+    }
+    kept
 }
 
 /// Whether a word needs no repair.

@@ -140,6 +140,8 @@ impl<'a> Parser<'a> {
                     | "was"
                     | "get"
                     | "gets"
+                    | "becomes"
+                    | "become"
                     | "all"
                     | "to"
                     | "should"
@@ -155,6 +157,9 @@ impl<'a> Parser<'a> {
         }
         let negated = self.peek() == Some("not");
         self.position += usize::from(negated);
+        while negated && matches!(self.peek(), Some("be" | "stay" | "remain" | "left" | "kept" | "still")) {
+            self.position += 1;
+        }
         let rest = self.rest();
         for length in (1..=2.min(rest.len())).rev() {
             let Some(adjective) = self.lexicon.adjective(&rest[..length]) else { continue };
@@ -342,6 +347,11 @@ impl<'a> Parser<'a> {
         if self.put_in_what(clause, relation, &phrase, start) {
             return true;
         }
+        // "the bowl on the counter with the fork next to it": the fork goes there as well.
+        if relation == Relation::With && !clause.places.is_empty() && self.beside_it() {
+            clause.objects.push(phrase);
+            return true;
+        }
         // "a mug in the sink with a spoon in it": the spoon is in the mug.
         if relation == Relation::With
             && self.skip_back_reference()
@@ -359,6 +369,15 @@ impl<'a> Parser<'a> {
         clause.places.push(Place::new(relation, &said, phrase));
         self.more_places(clause, relation);
         true
+    }
+
+    /// Passes over "next to it".
+    fn beside_it(&mut self) -> bool {
+        let near = preposition(&self.rest()).filter(|(relation, _)| *relation == Relation::Near);
+        let length = near.map_or(0, |(_, length)| length);
+        let it = length > 0 && matches!(self.word_at(length), Some("it" | "them" | "that"));
+        self.position += if it { length + 1 } else { 0 };
+        it
     }
 
     /// "open the fridge and put in the apple": the apple goes into what was spoken of.
@@ -400,11 +419,34 @@ impl<'a> Parser<'a> {
         true
     }
 
+    /// "out" and "off" at the end of what is said: of a light, not of a place.
+    fn switched_follows(&self) -> bool {
+        let ends = self.word_at(1).is_none_or(|next| [".", ",", "and", "then", "when", "once"].contains(&next));
+        ends && matches!(self.peek(), Some("out" | "off" | "on"))
+    }
+
+    /// Whether somebody or something else is spoken of from here on: "and the plate should be clean".
+    pub(super) fn new_subject_follows(&self) -> bool {
+        let mut ahead = self.ahead(0);
+        ahead.skip_joins();
+        if ahead.phrases(0).is_empty() {
+            return false;
+        }
+        ahead.peek().is_some_and(|word| {
+            ["should", "must", "needs", "need", "is", "are", "has", "have", "ought", "can"].contains(&word)
+                || is_going(word) && ahead.ahead(1).place_length().is_some()
+        })
+    }
+
     /// "in the fridge and the microwave": more of the same, unless a clause or another object follows.
     pub(super) fn more_places(&mut self, clause: &mut Clause<'a>, relation: Relation) {
         loop {
             let start = self.position;
-            if !self.skip_joins() || self.clause_starts_here(false) || preposition(&self.rest()).is_some() {
+            if !self.skip_joins()
+                || self.clause_starts_here(false)
+                || preposition(&self.rest()).is_some()
+                || self.new_subject_follows()
+            {
                 self.position = start;
                 return;
             }
@@ -419,7 +461,9 @@ impl<'a> Parser<'a> {
             behind.position += usize::from(behind.peek().is_some_and(is_going));
             let goes_elsewhere = preposition(&behind.rest())
                 .is_some_and(|(other, _)| other != Relation::From && other != Relation::With);
-            let another_pair = relation != Relation::From
+            let another_pair = self.switched_follows()
+                || relation != Relation::From
+                && !(relation == Relation::With && self.wants_place && clause.places.len() == 1)
                 && (goes_elsewhere || preposition(&self.rest()).is_some())
                 || matches!(self.peek(), Some("on" | "off" | "should" | "must" | "is" | "are" | "needs"));
             if another_pair {

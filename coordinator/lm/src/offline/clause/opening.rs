@@ -32,6 +32,11 @@ impl Parser<'_> {
             before_previous: false,
         };
         while let Some(word) = self.peek() {
+            if let Some((link, length)) = self.done_or_under_way() {
+                opening.link = link;
+                self.position += length;
+                continue;
+            }
             let rest = self.rest();
             if let Some(length) = self.lexicon.longest_small("sequence", &rest)
                 && !(length == 1 && self.longest_noun().is_some())
@@ -66,10 +71,12 @@ impl Parser<'_> {
             opening.sentence |= word == ".";
             match word {
                 "let" if self.ahead(1).verbs_here().is_some() => {}
+                "have" | "has" | "had" if self.perfect_follows() => {}
                 "go" | "come" if self.another_verb_follows() => {}
                 "should" | "shall" | "must" | "can" | "has" | "will" if !opening.robots.is_empty() => {}
                 "have" | "let" if self.ahead(1).robot().is_some() => {}
                 "that" if self.word_at(1).is_some_and(super::super::syntax::is_determiner) => {}
+                "that" if matches!(self.word_at(1), Some("it" | "they")) => {}
                 "if" => {
                     opening.condition = true;
                     opening.before_previous = !first && !self.is_fronted();
@@ -116,8 +123,10 @@ impl Parser<'_> {
         if self.peek() != Some("with") || ahead.phrases(0).is_empty() {
             return false;
         }
-        let state = ahead.peek().and_then(|word| self.lexicon.adjective(&[word]));
-        let ends = ahead.word_at(1).is_none_or(|word| [",", ".", "and", "at", "afterwards"].contains(&word));
+        let rest = ahead.rest();
+        let told = (1..=3.min(rest.len())).rev().find_map(|n| Some((self.lexicon.adjective(&rest[..n])?, n)));
+        let (state, length) = told.map_or((None, 1), |(state, length)| (Some(state), length));
+        let ends = ahead.word_at(length).is_none_or(|word| [",", ".", "and", "at", "afterwards"].contains(&word));
         ends && state.is_some_and(|state| state.set.keys().any(|p| p == "isOpen" || p == "isToggled"))
     }
 
@@ -132,9 +141,58 @@ impl Parser<'_> {
         (can && puts).then_some(person + 2)
     }
 
+    /// "once you have washed the fork": what is done, not a wish.
+    fn perfect_follows(&self) -> bool {
+        let person = self.position.checked_sub(1).and_then(|at| self.words.get(at));
+        person.is_some_and(|word| ["you", "we", "i", "they", "robot", "somebody", "one"].contains(&word.as_str()))
+            && self.ahead(1).verbs_here().is_some_and(|(form, _, _)| form == VerbForm::Past)
+            && self.word_at(2).is_some()
+    }
+
+    /// "when all of that is done", "while this is going on": only the order, whatever the words.
+    fn done_or_under_way(&self) -> Option<(Link, usize)> {
+        const JOINS: [&str; 8] = ["when", "once", "after", "while", "whilst", "as", "until", "soon"];
+        const WHAT: [&str; 13] = [
+            "that", "this", "it", "everything", "all", "of", "they", "these", "those", "things", "thats", "its",
+            "else",
+        ];
+        const AUXILIARIES: [&str; 11] =
+            ["is", "are", "has", "have", "been", "gets", "being", "s", "will", "be", "finally"];
+        const DONE: [&str; 8] =
+            ["done", "finished", "complete", "completed", "over", "ready", "settled", "through"];
+        const UNDER_WAY: [&str; 7] =
+            ["going", "happening", "running", "underway", "progress", "cooking", "heating"];
+        let run = |from: usize, words: &[&str]| {
+            (from..).take_while(|&at| self.word_at(at).is_some_and(|word| words.contains(&word))).count()
+        };
+        let joins = run(0, &JOINS);
+        let what = run(joins, &WHAT);
+        let auxiliaries = run(joins + what, &AUXILIARIES);
+        let contracted = self.word_at(joins) == Some("thats") || self.word_at(joins) == Some("its");
+        if joins == 0 || what == 0 || auxiliaries == 0 && !contracted {
+            return None;
+        }
+        let at = joins + what + auxiliaries;
+        let word = self.word_at(at)?;
+        let length = at + 1;
+        if DONE.contains(&word) {
+            return Some((Link::Then, length));
+        }
+        let particle = matches!(self.word_at(length), Some("on"));
+        let under_way = word == "under" && self.word_at(length) == Some("way")
+            || word == "in" && self.word_at(length) == Some("progress");
+        (UNDER_WAY.contains(&word) || under_way)
+            .then_some((Link::While, length + usize::from(particle || under_way)))
+    }
+
     /// "(while) another slices the bread", "the other one washes …": somebody does it, and no matter who.
     fn somebody(&self) -> Option<usize> {
-        const WHO: [&[&str]; 7] = [
+        const WHO: [&[&str]; 12] = [
+            &["the", "first"],
+            &["the", "second"],
+            &["the", "third"],
+            &["the", "rest"],
+            &["somebody"],
             &["the", "other", "one"],
             &["the", "other"],
             &["the", "others"],
@@ -157,6 +215,18 @@ impl Parser<'_> {
         })
     }
 
+    /// "so that it gets cold": a state that is wished for.
+    fn so_that_it_is(&self) -> bool {
+        let at = 1 + usize::from(self.word_at(1) == Some("that"));
+        let it = matches!(self.word_at(at), Some("it" | "they"));
+        let gets = matches!(
+            self.word_at(at + 1),
+            Some("is" | "are" | "gets" | "get" | "stays" | "stay" | "becomes" | "become")
+        );
+        let state = self.word_at(at + 2).and_then(|word| self.lexicon.adjective(&[word]));
+        it && gets && state.is_some()
+    }
+
     /// "go turn on the lamp": the going says nothing.
     fn another_verb_follows(&self) -> bool {
         let ahead = self.ahead(1);
@@ -169,8 +239,8 @@ impl Parser<'_> {
 
     /// "… . Once it is clean, put it away": what is said first is done first.
     fn is_fronted(&self) -> bool {
-        let before = self.position.checked_sub(1).and_then(|at| self.words.get(at));
-        before.is_some_and(|word| word == "." || word == "and")
+        let before = self.words[..self.position].iter().rev().find(|word| *word != ",");
+        before.is_some_and(|word| [".", "and", "then", "but"].contains(&word.as_str()))
     }
 
     /// "so I can see", "because it is late": passes over why.
@@ -183,6 +253,7 @@ impl Parser<'_> {
                 self.position += self.so_you_can_put().unwrap_or(0);
                 return true;
             }
+            Some("so") if self.so_that_it_is() => return false,
             Some("so" | "since") => self.word_at(1).is_some_and(|word| PERSONS.contains(&word)),
             _ => false,
         };

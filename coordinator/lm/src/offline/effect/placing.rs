@@ -18,6 +18,9 @@ impl<'a> Interpreter<'_, 'a> {
         if let Some(laid) = self.laid_with(clause) {
             return self.place(&laid, verb, next);
         }
+        if let Some(joined) = self.joined_with(clause) {
+            return self.place(&joined, verb, next);
+        }
         let (goal, inner, at) = self.sort_places(clause);
         if let Some(goal) = goal {
             if let Some(inner) = inner {
@@ -98,6 +101,20 @@ impl<'a> Interpreter<'_, 'a> {
                     if noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")))
         };
         goal.phrase.at.iter().find(takes).filter(|_| vessel).cloned()
+    }
+
+    /// "lay the paper with the book on the table": both go there.
+    fn joined_with(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
+        let first = clause.places.first().filter(|place| place.relation == Relation::With)?;
+        let goes = |place: &Place| matches!(place.relation, Relation::In | Relation::To);
+        let joins = self.is_movable(&first.phrase)
+            && !clause.objects.is_empty()
+            && clause.places[1..].iter().any(goes);
+        joins.then(|| {
+            let mut joined = clause.clone();
+            joined.objects.push(joined.places.remove(0).phrase);
+            joined
+        })
     }
 
     /// "set the table with a plate and a fork": the plate and the fork go on the table.
@@ -222,6 +239,14 @@ impl<'a> Interpreter<'_, 'a> {
             places = self.place_spoken_of(&objects).into_iter().collect();
         }
         self.leave_what_does_not_fit(clause, &mut objects, &places);
+        // "on the desk with the laptop": spoken of, and not moved.
+        let with: Vec<Phrase> = clause
+            .places
+            .iter()
+            .filter(|place| place.relation == Relation::With && self.is_movable(&place.phrase))
+            .map(|place| place.phrase.clone())
+            .collect();
+        let reached = with.iter().flat_map(|phrase| self.discourse.mention(phrase, &[], None)).collect();
         if let (true, Some(&place)) = (goal.on_top, places.first()) {
             let kind = self.discourse.entities[place].kind().to_owned();
             if self.discourse.scene.affords(&kind, "openable") {
@@ -242,7 +267,7 @@ impl<'a> Interpreter<'_, 'a> {
                 }
             }
         }
-        Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
+        Spoken { objects, placed: !places.is_empty(), places, reached }
     }
 
     /// The place that something else was put in last: "fill the cup and put it there too".

@@ -1,6 +1,6 @@
 //! What is left out or miswritten in a noun phrase.
 
-use super::super::clause::Parser;
+use super::super::clause::{Parser, is_going};
 use super::super::inflect;
 use super::super::lexicon::Noun;
 use super::super::scene::Scene;
@@ -46,35 +46,45 @@ impl Parser<'_> {
         true
     }
 
-    /// "two mugs … one … the other (one)", "three books … two … the third": of those that were counted.
+    /// "two mugs … one … the other (one)", "three books … two … the third": of those that were counted. "the other
+    /// two", "all three" where nothing was counted: of those that were spoken of.
     pub(super) fn one_of_the_counted(&mut self, word: &str, front: &mut Front) -> Option<Head> {
-        const ORDINALS: [&str; 4] = ["first", "second", "third", "last"];
-        let noun = self.counted.clone()?;
-        let ends = |parser: &Self, at: usize| {
-            parser.word_at(at).is_none_or(|next| {
-                ",.".contains(next) || preposition(&[next]).is_some() || ["and", "goes", "go", "should"].contains(&next)
+        const ORDINALS: [&str; 6] = ["other", "remaining", "second", "third", "last", "first"];
+        let ends = |at: usize| {
+            self.word_at(at).is_none_or(|next| {
+                ",.".contains(next)
+                    || preposition(&[next]).is_some()
+                    || is_going(next)
+                    || ["and", "should", "then", "need", "needs"].contains(&next)
             })
         };
         let number = inflect::number(word);
-        let one = self.word_at(1).is_some_and(|next| ["one", "ones"].contains(&next));
-        let (length, other) = match word {
-            "other" | "others" | "remaining" | "second" | "third" | "last" | "first"
-                if front.phrase.definite && (one || ends(self, 1)) && !(word == "others") =>
-            {
-                (1 + usize::from(one), !ORDINALS[..1].contains(&word))
-            }
-            _ if number.is_some() && ends(self, 1) => (1, front.phrase.other),
+        let ones = usize::from(self.word_at(1).is_some_and(|next| ["one", "ones"].contains(&next)));
+        let all = front.quantity == Some(Quantity::All);
+        let length = match word {
+            "another" if ends(1 + ones) => 1 + ones,
+            _ if ORDINALS.contains(&word) && front.phrase.definite && ends(1 + ones) => 1 + ones,
+            _ if number.is_some() && ends(1) => 1,
+            _ => return None,
+        };
+        let other = front.phrase.other || word != "first" && number.is_none();
+        let several = number.filter(|&count| count > 1);
+        let head = match self.counted.clone() {
+            Some(noun) if !all => Head::Noun(noun),
+            _ if several.is_some() && (all || other || front.phrase.definite) => Head::Pronoun { plural: true },
             _ => return None,
         };
         self.position += length;
         front.phrase.other = other;
-        front.phrase.indefinite = true;
-        front.phrase.definite = false;
-        front.quantity = Some(match number {
-            Some(count) if count > 1 => Quantity::Count(count),
-            _ => Quantity::One,
+        (front.phrase.definite, front.phrase.indefinite) = (false, true);
+        front.quantity = Some(match several {
+            Some(count) => Quantity::Count(count),
+            None if ["remaining", "other"].contains(&word) && self.words[self.position - 1] == "ones" => {
+                Quantity::All
+            }
+            None => Quantity::One,
         });
-        Some(Head::Noun(noun))
+        Some(head)
     }
 
     /// A verb where a noun is due, a letter away from what the scene has: "put the clean put on the stove".
@@ -86,6 +96,12 @@ impl Parser<'_> {
         };
         let meant = self.scene.vocabulary().find(near)?;
         self.lexicon.noun(&[meant]).map(|(noun, _)| noun.clone())
+    }
+
+    /// "put it all on the table"
+    pub(super) fn all_of_it_follows(&self) -> bool {
+        self.word_at(1) == Some("all")
+            && self.word_at(2).is_none_or(|next| ",.".contains(next) || preposition(&[next]).is_some() || next == "and")
     }
 
     /// "from it's hanger": a possessive, miswritten.
