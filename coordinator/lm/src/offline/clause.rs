@@ -155,6 +155,7 @@ impl<'a> Parser<'a> {
             && self.longest_noun().is_none()
             && !is_function_word(word)
             && self.lexicon.adjective(&[word]).is_none()
+            && self.word_at(1) != Some("of")
         {
             // An unknown verb, as far as its place tells.
             clause.verb_text = word.to_owned();
@@ -196,6 +197,15 @@ impl<'a> Parser<'a> {
         if let Some(previous) = previous.filter(|_| clause.verbs.is_empty() && clause.unknown.is_empty()) {
             clause.go_on(previous);
         }
+        let of_a_subject = previous.is_some_and(|previous| {
+            (previous.verbs.is_empty() || previous.verbs.iter().any(|verb| verb.act == Act::Keep))
+                && !previous.objects.is_empty()
+                && previous.objects.iter().all(|phrase| self.is_movable(phrase))
+        });
+        let goes = clause.objects.is_empty() && is_going(&clause.verb_text) && goes_somewhere(&clause);
+        if goes && of_a_subject && opening.link == Link::And && !opening.sentence {
+            clause.verbs = self.putting();
+        }
         self.understood_verb(&mut clause, start);
         clause.text = self.text_between(start, self.position);
         (!clause.text.is_empty()).then_some(clause)
@@ -214,6 +224,7 @@ impl<'a> Parser<'a> {
         if clause.verbs.is_empty()
             && clause.unknown.iter().all(goes)
             && !told
+            && !said.iter().any(|word| ["not", "doesnt", "shouldnt", "mustnt", "dont"].contains(&word.as_str()))
             && moved
             && (goes_somewhere(clause) || beside)
         {
@@ -392,9 +403,9 @@ impl<'a> Parser<'a> {
         let wished = clause.verbs.iter().all(|verb| verb.act == Act::Keep);
         ahead.position += usize::from(ahead.peek().is_some_and(is_going));
         if !clause.complement.is_empty() {
-            return ahead.state_told() || wished && ahead.goal_follows();
+            return ahead.state_told() || ahead.complements_follow() || wished && ahead.goal_follows();
         }
-        if wished && ahead.state_told() {
+        if wished && (ahead.state_told() || ahead.complements_follow()) {
             return true;
         }
         preposition(&ahead.rest())

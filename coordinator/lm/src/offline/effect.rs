@@ -4,7 +4,7 @@ use lamma_domains::goal::PropertyValue;
 
 use super::lexicon::{Act, Settings, Verb};
 use super::mention::{Discourse, Spoken};
-use super::syntax::{Clause, Head, Phrase, Place, Relation};
+use super::syntax::{Clause, Head, Phrase, Place, Quantity, Relation};
 
 /// What a clause makes of an entity.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,10 +95,13 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         self.spoke = false;
         let mut spoken = Spoken::default();
         if clause.negated {
-            spoken = match self.not_to_be_left(clause) {
-                Some(kept) => self.keep(&kept),
-                None => self.forbid(clause),
+            spoken = match (self.not_to_be_left(clause), self.not_there(clause)) {
+                (Some(kept), _) => self.keep(&kept),
+                (_, Some(elsewhere)) => self.put_elsewhere(&elsewhere, next),
+                _ => self.forbid(clause),
             };
+        } else if let Some(elsewhere) = self.not_there(clause) {
+            spoken = self.put_elsewhere(&elsewhere, next);
         } else if clause.says_any(&["same", "likewise"]) && self.same_again(clause, &mut spoken) {
         } else if let Some(mended) = left_so(clause).and_then(mended) {
             spoken = self.complaint(clause, &mended);
@@ -133,7 +136,21 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         for word in clause.unknown.iter().skip(usize::from(clause.verbs.is_empty())) {
             self.discourse.assume(format!("passed over \"{word}\""), 0.85);
         }
+        spoken.reached.extend(self.named_besides(clause));
         self.discourse.spoken.push(spoken);
+    }
+
+    /// What a clause names only to say where, with what or from where: "next to the laptop … open it".
+    fn named_besides(&mut self, clause: &Clause<'a>) -> Vec<usize> {
+        let besides = |place: &&Place| {
+            matches!(place.relation, Relation::Near | Relation::With | Relation::From)
+                && place.phrase.quantity == Quantity::One
+                && matches!(&place.phrase.head, Head::Noun(noun)
+                    if !noun.class && noun.kinds.iter().any(|kind| self.discourse.scene.has(kind)))
+        };
+        let phrases: Vec<Phrase> =
+            clause.places.iter().filter(besides).map(|place| place.phrase.clone()).collect();
+        phrases.iter().flat_map(|phrase| self.discourse.mention(phrase, &[], None)).collect()
     }
 
     /// "do the same with the spoon": all that was asked for of the thing spoken of last.
@@ -184,13 +201,8 @@ impl<'d, 'a> Interpreter<'d, 'a> {
 
     /// "run water into the mug": the mug is filled.
     fn runs_into(&self, clause: &Clause<'a>, verb: &Verb) -> bool {
-        let scene = self.discourse.scene;
         verb.set.get("isToggled") == Some(&super::yes())
-            && clause.places.iter().any(|place| {
-                matches!(place.relation, Relation::In | Relation::To)
-                    && matches!(&place.phrase.head, Head::Noun(noun)
-                        if noun.kinds.iter().any(|kind| scene.affords(kind, "canFillWithLiquid")))
-            })
+            && clause.places.iter().any(|place| self.runs_in(place))
     }
 
     /// "take the mug to the sink and wash it": the sink is where it is washed, not where it stays.

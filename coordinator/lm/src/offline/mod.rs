@@ -330,9 +330,10 @@ fn says_state(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
         syntax::Head::Named(_) => true,
         _ => false,
     };
+    let full = |phrase: &syntax::Phrase| phrase.with.iter().any(|with| with.liquid().is_some());
     clause.wants()
         && clause.verbs.iter().any(|verb| matches!(verb.act, Act::Keep | Act::Place))
-        && !clause.complement.is_empty()
+        && (!clause.complement.is_empty() || clause.says_any(&["filled", "full"]) && clause.objects.iter().any(full))
         && !clause.objects.is_empty()
         && clause.objects.iter().all(is_here)
 }

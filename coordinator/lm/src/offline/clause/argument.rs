@@ -72,19 +72,25 @@ impl<'a> Parser<'a> {
         let [vessel] = clause.objects.as_slice() else { return false };
         let takes = matches!(&vessel.head, Head::Noun(noun) if self.has_affordance(noun, "receptacle"));
         let length = usize::from(matches!(self.peek(), Some("should" | "must" | "shall" | "to")));
-        if !takes || !matches!(self.word_at(length), Some("contain" | "contains" | "hold" | "holds")) {
+        let holds = matches!(self.word_at(length), Some("contain" | "contains" | "hold" | "holds"));
+        // "the kettle needs water", "has water in it"
+        let has = matches!(self.word_at(length), Some("has" | "have" | "needs" | "need" | "gets" | "get"));
+        if !takes || !holds && !has {
             return false;
         }
         let start = self.position;
         self.position += length + 1;
+        self.position += usize::from(has && self.peek() == Some("to") && self.word_at(1) == Some("have")) * 2;
         let things = self.phrases(0);
-        if things.is_empty() {
+        let liquid = things.first().and_then(Phrase::liquid);
+        if let Some(liquid) = liquid {
+            clause.complement.extend(super::super::mention::filled(liquid));
+            let _ = self.skip_back_reference();
+            return true;
+        }
+        if things.is_empty() || has {
             self.position = start;
             return false;
-        }
-        if let Some(liquid) = things[0].liquid() {
-            clause.complement.extend(super::super::mention::filled(liquid));
-            return true;
         }
         clause.places = vec![Place::new(Relation::In, "in", vessel.clone())];
         clause.objects = things;
@@ -155,6 +161,11 @@ impl<'a> Parser<'a> {
             }
             self.position += 1;
         }
+        // "the lights go off"
+        let goes = matches!(self.peek(), Some("go" | "goes" | "come" | "comes"))
+            && matches!(self.word_at(1), Some("on" | "off" | "out"))
+            && self.word_at(2).is_none_or(|next| [",", ".", "and", "then", "again"].contains(&next));
+        self.position += usize::from(goes);
         let negated = self.peek() == Some("not");
         self.position += usize::from(negated);
         while negated && matches!(self.peek(), Some("be" | "stay" | "remain" | "left" | "kept" | "still")) {

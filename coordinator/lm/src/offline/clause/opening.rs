@@ -2,7 +2,7 @@
 
 use super::super::inflect::VerbForm;
 use super::super::lexicon::Act;
-use super::super::syntax::{Link, preposition};
+use super::super::syntax::{Link, Relation, preposition};
 use super::Parser;
 
 /// What opens a clause.
@@ -120,8 +120,16 @@ impl Parser<'_> {
     /// "with the lights off": a state that is to hold.
     pub(super) fn state_follows(&self) -> bool {
         let mut ahead = self.ahead(1);
-        if self.peek() != Some("with") || ahead.phrases(0).is_empty() {
+        let things = if self.peek() == Some("with") { ahead.phrases(0) } else { Vec::new() };
+        if things.is_empty() {
             return false;
+        }
+        // "with water in the cup": to be so.
+        let poured = things.iter().all(|phrase| phrase.liquid().is_some())
+            && preposition(&ahead.rest()).is_some_and(|(relation, _)| relation == Relation::In)
+            && ahead.word_at(1) != Some("it");
+        if poured {
+            return true;
         }
         let rest = ahead.rest();
         let told = (1..=3.min(rest.len())).rev().find_map(|n| Some((self.lexicon.adjective(&rest[..n])?, n)));

@@ -66,7 +66,7 @@ impl<'a> Interpreter<'_, 'a> {
             let kind = self.discourse.entities[entity].kind().to_owned();
             let home = match (verb.act, clause.back) {
                 (_, true) => self.where_it_was(entity),
-                (Act::Store, _) => self.home_of(&kind),
+                (Act::Store, _) => self.home_of(&kind, &at),
                 (Act::Discard, _) => homes.iter().find(|home| self.discourse.scene.has(home)).cloned(),
                 _ => homes.iter().find(|home| self.discourse.scene.accepts(home, &kind)).cloned(),
             };
@@ -239,14 +239,6 @@ impl<'a> Interpreter<'_, 'a> {
             places = self.place_spoken_of(&objects).into_iter().collect();
         }
         self.leave_what_does_not_fit(clause, &mut objects, &places);
-        // "on the desk with the laptop": spoken of, and not moved.
-        let with: Vec<Phrase> = clause
-            .places
-            .iter()
-            .filter(|place| place.relation == Relation::With && self.is_movable(&place.phrase))
-            .map(|place| place.phrase.clone())
-            .collect();
-        let reached = with.iter().flat_map(|phrase| self.discourse.mention(phrase, &[], None)).collect();
         if let (true, Some(&place)) = (goal.on_top, places.first()) {
             let kind = self.discourse.entities[place].kind().to_owned();
             if self.discourse.scene.affords(&kind, "openable") {
@@ -267,7 +259,7 @@ impl<'a> Interpreter<'_, 'a> {
                 }
             }
         }
-        Spoken { objects, placed: !places.is_empty(), places, reached }
+        Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
     }
 
     /// The place that something else was put in last: "fill the cup and put it there too".
@@ -360,9 +352,18 @@ impl<'a> Interpreter<'_, 'a> {
         Spoken { objects, places: vec![place], placed: true, ..Spoken::default() }
     }
 
-    fn home_of(&self, kind: &str) -> Option<String> {
+    /// Where things of a type are kept, other than where it comes from.
+    fn home_of(&self, kind: &str, from: &[Place]) -> Option<String> {
         let scene = self.discourse.scene;
-        self.discourse.lexicon.homes(kind).find(|home| scene.accepts(home, kind)).map(str::to_owned)
+        let left = |home: &str| {
+            let of = |place: &Place| {
+                place.relation == Relation::From
+                    && matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| kind == home))
+            };
+            from.iter().any(of)
+        };
+        let mut homes = self.discourse.lexicon.homes(kind).filter(|home| scene.accepts(home, kind));
+        homes.find(|home| !left(home)).map(str::to_owned)
     }
 
     /// The type of what a thing was said to be in, or lies in now.

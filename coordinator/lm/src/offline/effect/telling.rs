@@ -1,6 +1,7 @@
 //! Clauses without a verb: what is told, wished for or complained of.
 
 use super::super::clause::is_going;
+use super::super::lexicon::Act;
 use super::super::mention::Spoken;
 use super::super::scene::{Scene, is_in_state};
 use super::super::syntax::{Clause, Head, Link, Phrase, Place, Relation};
@@ -18,7 +19,12 @@ impl<'a> Interpreter<'_, 'a> {
         let liquid = !clause.objects.is_empty() && clause.objects.iter().all(|o| o.liquid().is_some());
         if !clause.complement.is_empty() {
             // "the lamp should be off" asks for it; "the lamp is off" only says so.
-            if clause.wants() || !next.is_some_and(speaks_of_it) && self.is_untrue(clause) {
+            let spoken_of_next = next.is_some_and(speaks_of_it);
+            let at_rest = clause.complement.values().all(|value| *value == crate::offline::no());
+            if clause.wants() || !spoken_of_next && self.is_untrue(clause) {
+                spoken = self.keep(clause);
+            } else if at_rest && !spoken_of_next && index > 0 && self.is_told_of_things(clause) {
+                // "… and the stove is off": whether it is so already or not, it shall be.
                 spoken = self.keep(clause);
             } else if clause.link == Link::While || next.is_some_and(speaks_of_it) {
                 spoken = self.only_mention(clause);
@@ -57,16 +63,72 @@ impl<'a> Interpreter<'_, 'a> {
         spoken
     }
 
+    fn is_told_of_things(&self, clause: &Clause<'a>) -> bool {
+        let is_here = |phrase: &Phrase| {
+            matches!(&phrase.head, Head::Noun(noun)
+                if noun.kinds.iter().any(|kind| self.discourse.scene.has(kind)))
+        };
+        !clause.says_any(&["left", "still", "if", "because", "since"])
+            && !clause.objects.is_empty()
+            && clause.objects.iter().all(is_here)
+    }
+
+    /// "the pot should not stay on the counter", "don't leave the pan on the stove": what is to go from where.
+    pub(super) fn not_there(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
+        const STAYS: [&str; 14] = [
+            "stay", "stays", "belong", "belongs", "be", "remain", "stand", "standing", "lie", "lying", "leave",
+            "left", "sit", "go",
+        ];
+        let stays = clause.verbs.iter().all(|verb| matches!(verb.act, Act::Keep | Act::Place | Act::Go));
+        let denied = clause.negated && clause.verb_text.starts_with("leav")
+            || !clause.negated && clause.says_any(&["not", "doesnt", "shouldnt", "mustnt", "dont", "no"]);
+        let place = clause.places.iter().position(|place| place.relation == Relation::In)?;
+        let fits = denied
+            && stays
+            && clause.says_any(&STAYS)
+            && clause.complement.is_empty()
+            && !clause.objects.is_empty()
+            && clause.objects.iter().all(|phrase| self.is_movable(phrase));
+        fits.then(|| {
+            let mut elsewhere = clause.clone();
+            elsewhere.negated = false;
+            elsewhere.places[place].relation = Relation::From;
+            elsewhere
+        })
+    }
+
+    /// What must not stay where it is goes where such things are kept, unless the next clause says where.
+    pub(super) fn put_elsewhere(&mut self, clause: &Clause<'a>, next: Option<&Clause<'a>>) -> Spoken {
+        let goes_on = next.is_some_and(|next| {
+            speaks_of_it(next)
+                && next.verbs.iter().any(|v| matches!(v.act, Act::Place | Act::Store | Act::Discard | Act::Hold))
+        });
+        let store = self.discourse.lexicon.verbs("store").into_iter().find(|(_, p, _)| p.is_empty());
+        match store {
+            Some((_, _, verb)) if !goes_on => {
+                self.discourse.assume(format!("\"{}\": it is put away", clause.text), 0.9);
+                self.place(clause, verb, next)
+            }
+            _ => self.only_mention(clause),
+        }
+    }
+
     /// Whether what a clause tells of things here is not so now: then it tells how it shall be.
     fn is_untrue(&self, clause: &Clause<'a>) -> bool {
         let scene = self.discourse.scene;
+        let is_not_so = |kind: &str| {
+            let switched = clause.complement.contains_key("isToggled");
+            let switch = self.discourse.lexicon.control(kind).filter(|_| switched);
+            let objects = scene.of_kind(switch.unwrap_or(kind));
+            objects.iter().any(|object| !object.parents.is_empty() || !object.states.is_empty())
+                && !objects.iter().any(|object| is_in_state(object, &clause.complement))
+        };
         let untrue = |phrase: &Phrase| match &phrase.head {
-            Head::Noun(noun) => noun.kinds.iter().find(|kind| scene.has(kind)).is_some_and(|kind| {
-                let switch = self.discourse.lexicon.control(kind).filter(|_| clause.complement.contains_key("isToggled"));
-                let objects = scene.of_kind(switch.unwrap_or(kind));
-                objects.iter().any(|object| !object.parents.is_empty() || !object.states.is_empty())
-                    && !objects.iter().any(|object| is_in_state(object, &clause.complement))
-            }),
+            Head::Noun(noun) => noun.kinds.iter().find(|kind| scene.has(kind)).is_some_and(|kind| is_not_so(kind)),
+            Head::Pronoun { .. } => {
+                let last = self.discourse.spoken.iter().rev().find(|spoken| !spoken.objects.is_empty());
+                last.is_some_and(|s| s.objects.iter().all(|&e| is_not_so(self.discourse.entities[e].kind())))
+            }
             _ => false,
         };
         !clause.says_any(&["left", "still", "if", "because", "since"])

@@ -1,6 +1,7 @@
 //! What follows the head of a noun phrase: contents, places, exceptions.
 
 use super::super::clause::Parser;
+use super::super::inflect::VerbForm;
 use super::super::lexicon::Noun;
 use super::super::syntax::{Head, Phrase, Place, Quantity, preposition};
 
@@ -46,6 +47,9 @@ impl Parser<'_> {
                     if matches!(self.word_at(1), Some("is" | "are" | "was" | "were")) =>
                 {
                     self.position += 2;
+                    while matches!(self.peek(), Some("still" | "currently" | "now" | "left" | "already")) {
+                        self.position += 1;
+                    }
                     if !self.adjective(phrase) && preposition(&self.rest()).is_none() {
                         self.position = start;
                         return;
@@ -84,6 +88,13 @@ impl Parser<'_> {
                     }
                     phrase.except.extend(self.phrases(depth + 1));
                 }
+                Some("that" | "which" | "who" | "you" | "we" | "i") if self.relative().is_some() => {
+                    if phrase.head == Head::Everything {
+                        phrase.head = Head::Pronoun { plural: true };
+                        phrase.quantity = Quantity::One;
+                    }
+                    self.position += self.relative().unwrap_or(0);
+                }
                 Some("other") if self.word_at(1) == Some("than") => {
                     self.position += 2;
                     phrase.except.extend(self.phrases(depth + 1));
@@ -94,6 +105,35 @@ impl Parser<'_> {
                 return;
             }
         }
+    }
+
+    /// "(the knife) that you used", "(the machine) which makes it": how many words tell what is known of a thing.
+    fn relative(&self) -> Option<usize> {
+        const PERSONS: [&str; 9] = ["you", "we", "i", "they", "he", "she", "someone", "somebody", "ive"];
+        const AUXILIARIES: [&str; 10] =
+            ["have", "has", "had", "just", "will", "did", "already", "been", "be", "were"];
+        let joined = usize::from(matches!(self.peek(), Some("that" | "which" | "who")));
+        let person = usize::from(self.word_at(joined).is_some_and(|word| PERSONS.contains(&word)));
+        let from = joined + person;
+        let auxiliaries =
+            (from..).take_while(|&at| self.word_at(at).is_some_and(|w| AUXILIARIES.contains(&w))).count();
+        let verb = self.ahead(from + auxiliaries);
+        let (form, _, length) = verb.verbs_here()?;
+        let mut end = from + auxiliaries + length;
+        if person == 1 {
+            // "the knife you washed the apple with" says more than is read; "the knife you used" does not.
+            let past = self.word_at(from).is_some_and(|word| ["cut", "put", "set"].contains(&word));
+            let done = form == VerbForm::Past || auxiliaries > 0 || past;
+            let stranded = self.word_at(end).is_some_and(|word| ["with", "from", "for"].contains(&word))
+                && self.word_at(end + 1).is_none_or(|next| [".", ",", "and"].contains(&next));
+            end += usize::from(stranded);
+            let ends = self.word_at(end).is_none_or(|next| {
+                [".", ",", "and", "then"].contains(&next) || preposition(&[next]).is_some()
+            });
+            return (done && ends).then_some(end);
+        }
+        let it = matches!(self.word_at(end), Some("it" | "them"));
+        (joined == 1 && it).then_some(end + 1)
     }
 
     pub(super) fn is_vessel(&self, phrase: &Phrase) -> bool {
