@@ -220,7 +220,8 @@ impl<'a> Parser<'a> {
         let pronoun = |phrase: &Phrase| going && matches!(phrase.head, Head::Pronoun { .. });
         let moved = clause.objects.iter().all(|phrase| self.is_movable(phrase) || pronoun(phrase))
             && !clause.objects.is_empty();
-        let beside = going && clause.places.iter().any(|place| place.relation == Relation::Near);
+        let with = start.checked_sub(1).is_some_and(|at| self.words[at] == "with");
+        let beside = (going || with) && clause.places.iter().any(|place| place.relation == Relation::Near);
         if clause.verbs.is_empty()
             && clause.unknown.iter().all(goes)
             && !told
@@ -350,7 +351,7 @@ impl<'a> Parser<'a> {
     fn verb_reads_as_clause(&self) -> bool {
         let Some((form, verbs, length)) = self.verbs_here() else { return false };
         form != VerbForm::Past
-            && self.peek() != Some("should")
+            && !self.peek().is_some_and(|word| ["should", "has", "needs", "gets"].contains(&word))
             && !verbs.iter().all(|verb| verb.act == Act::Go)
             && self.longest_noun().is_none()
             && preposition(&self.rest()).is_none()
@@ -415,7 +416,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Whether a state is told here: "is clean", "sliced".
-    fn state_told(&self) -> bool {
+    pub(super) fn state_told(&self) -> bool {
         self.peek().is_some_and(|word| {
             ["is", "are", "stays", "stay"].contains(&word)
                 || preposition(&[word]).is_none() && self.lexicon.adjective(&[word]).is_some()

@@ -145,6 +145,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         let besides = |place: &&Place| {
             matches!(place.relation, Relation::Near | Relation::With | Relation::From)
                 && place.phrase.quantity == Quantity::One
+                && place.phrase.liquid().is_none()
                 && matches!(&place.phrase.head, Head::Noun(noun)
                     if !noun.class && noun.kinds.iter().any(|kind| self.discourse.scene.has(kind)))
         };

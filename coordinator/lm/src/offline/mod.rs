@@ -282,7 +282,8 @@ fn one_clause<'a>(
         && !says_state(clause, interpreter.discourse.scene)
         && interpreter.first_situation(index, &situation::ranked(situations, &words, true), &words)
     {
-        interpreter.discourse.spoken.push(Spoken::default());
+        let spoken = interpreter.brought_about(index);
+        interpreter.discourse.spoken.push(spoken);
         return;
     }
     let before = Snapshot::take(interpreter);
@@ -299,7 +300,8 @@ fn one_clause<'a>(
         let literal = Snapshot::take(interpreter);
         before.restore(interpreter);
         if interpreter.first_situation(index, &ranked, &words) {
-            interpreter.discourse.spoken.push(Spoken::default());
+            let spoken = interpreter.brought_about(index);
+            interpreter.discourse.spoken.push(spoken);
             return;
         }
         literal.restore(interpreter);
@@ -371,7 +373,11 @@ fn is_concrete(clause: &Clause<'_>, lexicon: &Lexicon, scene: &Scene<'_>) -> boo
         syntax::Head::Named(_) => true,
         _ => false,
     };
-    !is_weak(clause, lexicon) && clause.objects.iter().any(is_here)
+    // "… and put it on the counter"
+    let carries = clause.verbs.iter().any(|verb| verb.act == Act::Place)
+        && clause.objects.iter().any(|phrase| matches!(phrase.head, syntax::Head::Pronoun { .. }))
+        && clause.places.iter().any(|place| is_here(&place.phrase));
+    !is_weak(clause, lexicon) && (carries || clause.objects.iter().any(is_here))
 }
 
 /// Whether a clause can only mean going somewhere: "turn left" can, "turn on the lamp" cannot.

@@ -97,6 +97,11 @@ impl Parser<'_> {
             }
             if let Some(number) = inflect::number(word) {
                 self.position += 1;
+                if front.quantity == Some(Quantity::All) && self.peek() == Some("of") {
+                    front.quantity = None;
+                    self.position += 1;
+                    continue;
+                }
                 front.quantity = Some(if number == 1 { Quantity::One } else { Quantity::Count(number) });
                 continue;
             }

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use super::effect::{Change, Interpreter};
 use super::inflect;
 use super::lexicon::{LONGEST, Settings, squash};
-use super::mention::Which;
+use super::mention::{Spoken, Which};
 
 /// As many situations are tried as there may be nothing for in the scene.
 const MOST_TRIED: usize = 4;
@@ -133,6 +133,26 @@ impl Interpreter<'_, '_> {
         words: &[String],
     ) -> bool {
         ranked.iter().any(|(situation, _)| self.situation(index, situation, words))
+    }
+
+    /// What a situation spoke of, for "it" later: "make a coffee and bring it to the table".
+    pub fn brought_about(&self, index: usize) -> Spoken {
+        let mine = self.facts.iter().filter(|fact| fact.clause == index);
+        let mut objects: Vec<usize> = mine
+            .map(|fact| fact.entity)
+            .filter(|&e| self.discourse.scene.affords(self.discourse.entities[e].kind(), "pickupable"))
+            .collect();
+        objects.dedup();
+        // A salad is carried in its bowl.
+        let mine = self.facts.iter().filter(|fact| fact.clause == index);
+        let vessel = mine.filter_map(|fact| match fact.change {
+            Change::Inside(place) => Some(place),
+            _ => None,
+        });
+        let carried = |&e: &usize| self.discourse.scene.affords(self.discourse.entities[e].kind(), "pickupable");
+        let mut places: Vec<usize> = vessel.filter(carried).collect();
+        places.dedup();
+        Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
     }
 
     /// Adds the facts of a situation; false when the scene has nothing for it.

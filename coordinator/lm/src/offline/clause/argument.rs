@@ -315,16 +315,23 @@ impl<'a> Parser<'a> {
         if !clause.verbs.is_empty() || !matches!(self.peek(), Some("needs" | "need" | "requires")) {
             return false;
         }
-        let Some(word) = self.word_at(1) else { return false };
-        let doing = |(form, particles, _): &(VerbForm, &[String], &Verb)| {
-            *form == VerbForm::Gerund && particles.is_empty()
+        // "needs a (good) wash"
+        let article = usize::from(self.word_at(1) == Some("a"));
+        let good = usize::from(
+            article == 1 && self.word_at(2).is_some_and(|w| ["good", "quick", "proper", "thorough"].contains(&w)),
+        );
+        let at = 1 + article + good;
+        let Some(word) = self.word_at(at) else { return false };
+        let wanted = if article == 1 { VerbForm::Base } else { VerbForm::Gerund };
+        let doing = |(form, particles, verb): &(VerbForm, &[String], &Verb)| {
+            *form == wanted && particles.is_empty() && !matches!(verb.act, Act::Place | Act::Go)
         };
         clause.verbs = self.lexicon.verbs(word).into_iter().filter(doing).map(|(_, _, verb)| verb).collect();
         if clause.verbs.is_empty() {
             return false;
         }
         clause.verb_text = word.to_owned();
-        self.position += 2;
+        self.position += at + 1;
         true
     }
 
@@ -440,8 +447,11 @@ impl<'a> Parser<'a> {
     pub(super) fn new_subject_follows(&self) -> bool {
         let mut ahead = self.ahead(0);
         ahead.skip_joins();
-        if ahead.phrases(0).is_empty() {
-            return false;
+        let things = ahead.phrases(0);
+        let Some(first) = things.first() else { return false };
+        // "…, all of them clean"
+        if matches!(first.head, Head::Pronoun { plural: true }) && ahead.state_told() {
+            return true;
         }
         ahead.peek().is_some_and(|word| {
             ["should", "must", "needs", "need", "is", "are", "has", "have", "ought", "can"].contains(&word)

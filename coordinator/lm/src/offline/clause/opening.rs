@@ -40,6 +40,7 @@ impl Parser<'_> {
             let rest = self.rest();
             if let Some(length) = self.lexicon.longest_small("sequence", &rest)
                 && !(length == 1 && self.longest_noun().is_some())
+                && !(word == "next" && preposition(&rest).is_some())
             {
                 opening.link = Link::Then;
                 self.position += length;
@@ -125,6 +126,12 @@ impl Parser<'_> {
             return false;
         }
         // "with water in the cup": to be so.
+        let beside = preposition(&ahead.rest()).is_some_and(|(relation, length)| {
+            relation == Relation::Near && matches!(ahead.word_at(length), Some("it" | "them" | "that"))
+        });
+        if beside {
+            return true;
+        }
         let poured = things.iter().all(|phrase| phrase.liquid().is_some())
             && preposition(&ahead.rest()).is_some_and(|(relation, _)| relation == Relation::In)
             && ahead.word_at(1) != Some("it");
@@ -135,7 +142,9 @@ impl Parser<'_> {
         let told = (1..=3.min(rest.len())).rev().find_map(|n| Some((self.lexicon.adjective(&rest[..n])?, n)));
         let (state, length) = told.map_or((None, 1), |(state, length)| (Some(state), length));
         let ends = ahead.word_at(length).is_none_or(|word| [",", ".", "and", "at", "afterwards"].contains(&word));
-        ends && state.is_some_and(|state| state.set.keys().any(|p| p == "isOpen" || p == "isToggled"))
+        let told = ["isOpen", "isToggled", "isFilledWithLiquid"];
+        (ends || ahead.peek() == Some("full"))
+            && state.is_some_and(|state| state.set.keys().any(|p| told.contains(&p.as_str())))
     }
 
     /// "… so (that) you can put it on the table": an order after all; how many words stand before its verb.

@@ -323,6 +323,14 @@ impl<'a> Interpreter<'_, 'a> {
             }
             return Spoken { objects, places: vec![place], placed: true, ..Spoken::default() };
         }
+        // What it is put next to may have been put somewhere itself.
+        let stands = mentioned.first().and_then(|&e| {
+            self.facts.iter().rev().find_map(|fact| match fact.change {
+                Change::Inside(place) if fact.entity == e => Some(self.discourse.entities[place].kind().to_owned()),
+                _ => None,
+            })
+        });
+        let stands = stands.filter(|kind| scene.accepts(kind, &thing));
         let under =
             reference.as_deref().filter(|_| near.under).and_then(|kind| self.discourse.lexicon.under(kind));
         let stands_on = reference.as_deref().and_then(|kind| {
@@ -336,6 +344,7 @@ impl<'a> Interpreter<'_, 'a> {
         let kinds = self.discourse.entities[first].kinds.clone();
         let chosen = under
             .filter(|place| kinds.iter().any(|kind| scene.accepts(place, kind)))
+            .or(stands.as_deref())
             .or(stands_on)
             .or(likely)
             .map(str::to_owned);
