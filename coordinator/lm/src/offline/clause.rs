@@ -30,6 +30,8 @@ pub struct Parser<'a> {
     pub(super) counted: Option<Noun>,
     /// Whether the verb at hand still needs a place to put something.
     pub(super) wants_place: bool,
+    /// Whether the verb at hand switches things on or off.
+    pub(super) switches: bool,
     /// Whether the clause at hand is negated: then "or" forbids both.
     pub(super) negated: bool,
 }
@@ -48,6 +50,7 @@ impl<'a> Parser<'a> {
             last_place: None,
             counted: None,
             wants_place: false,
+            switches: true,
             negated: false,
         }
     }
@@ -170,8 +173,12 @@ impl<'a> Parser<'a> {
         }
         self.wants_place = clause.verbs.iter().any(|verb| verb.act == Act::Place);
         self.negated = clause.negated;
+        let first = clause.verb_text.split(' ').next().unwrap_or_default();
+        self.switches = clause.verbs.is_empty()
+            || clause.verbs.iter().any(|verb| verb.act == Act::Keep)
+            || self.lexicon.verbs(first).iter().any(|(_, _, v)| v.wants.as_deref() == Some("toggleable"));
         self.arguments(&mut clause, start);
-        self.wants_place = false;
+        (self.wants_place, self.switches) = (false, true);
         if let Some((_, word)) = doing {
             clause.objects.retain(|phrase| phrase.head != Head::Unknown(word.clone()));
         }
@@ -225,7 +232,9 @@ impl<'a> Parser<'a> {
         if clause.verbs.is_empty()
             && clause.unknown.iter().all(goes)
             && !told
-            && !said.iter().any(|word| ["not", "doesnt", "shouldnt", "mustnt", "dont"].contains(&word.as_str()))
+            && !said
+                .iter()
+                .any(|word| ["not", "doesnt", "shouldnt", "mustnt", "dont"].contains(&word.as_str()))
             && moved
             && (goes_somewhere(clause) || beside)
         {
@@ -237,6 +246,9 @@ impl<'a> Parser<'a> {
     /// Objects, places, particles and complements, up to the next clause.
     fn arguments(&mut self, clause: &mut Clause<'a>, start: usize) {
         while let Some(word) = self.peek() {
+            if self.purpose(clause) {
+                continue;
+            }
             if self.is_boundary(clause, start) {
                 return;
             }
@@ -255,7 +267,8 @@ impl<'a> Parser<'a> {
             }
             // "the fork and the spoon both in the drawer"
             let floating = ["both", "all", "each"].contains(&word) && !clause.objects.is_empty();
-            if floating && self.word_at(1).is_some_and(|next| preposition(&[next]).is_some() && next != "of") {
+            if floating && self.word_at(1).is_some_and(|next| preposition(&[next]).is_some() && next != "of")
+            {
                 self.position += 1;
                 continue;
             }
@@ -303,6 +316,7 @@ impl<'a> Parser<'a> {
             "never" | "if" => self.position > start,
             "." => true,
             "," | "and" if self.is_complete(clause) && self.new_subject_follows() => true,
+            "," | "and" if !self.switches && self.ahead_after_things().switched_follows() => true,
             "," | "and" => {
                 let mut ahead = self.ahead(1);
                 if ahead.peek() == Some("and") || ahead.peek() == Some(",") {
@@ -335,7 +349,8 @@ impl<'a> Parser<'a> {
     fn is_complete(&self, clause: &Clause<'a>) -> bool {
         let does = clause.verbs.iter().any(|verb| verb.act != Act::Keep);
         let put = places(clause) && !clause.places.is_empty();
-        put || !clause.objects.is_empty() && (does || !clause.places.is_empty() || !clause.complement.is_empty())
+        put || !clause.objects.is_empty()
+            && (does || !clause.places.is_empty() || !clause.complement.is_empty())
     }
 
     /// "… to be put in the sink": what was spoken of is to be put there.
@@ -383,6 +398,7 @@ impl<'a> Parser<'a> {
             last_place: self.last_place.clone(),
             counted: self.counted.clone(),
             wants_place: self.wants_place,
+            switches: self.switches,
             negated: self.negated,
         }
     }
@@ -425,8 +441,7 @@ impl<'a> Parser<'a> {
 
     /// Whether it is said here where something goes.
     fn goal_follows(&self) -> bool {
-        preposition(&self.rest())
-            .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
+        preposition(&self.rest()).is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
     }
 
     /// Where the parser stands behind the things that come next.
@@ -438,7 +453,8 @@ impl<'a> Parser<'a> {
     }
 
     fn complements_follow(&self) -> bool {
-        let ends = self.word_at(1).is_none_or(|next| [".", ",", "and", "then", "when", "once"].contains(&next));
+        let ends =
+            self.word_at(1).is_none_or(|next| [".", ",", "and", "then", "when", "once"].contains(&next));
         self.peek().is_some_and(|word| ["off", "on"].contains(&word) || word == "out" && ends)
     }
 }

@@ -114,7 +114,9 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 }
                 Act::Set if liquid && self.runs_into(clause, verb) => self.fill(clause, verb),
                 _ if is_a_trip(clause, next) => self.trip(clause),
-                Act::Place | Act::Hold | Act::Keep if liquid && clause.places.iter().any(|place| self.runs_in(place)) => {
+                Act::Place | Act::Hold | Act::Keep
+                    if liquid && clause.places.iter().any(|place| self.runs_in(place)) =>
+                {
                     self.fill(clause, verb)
                 }
                 Act::Go => self.go(clause, next),
@@ -409,8 +411,7 @@ fn is_a_trip(clause: &Clause<'_>, next: Option<&Clause<'_>>) -> bool {
         && matches!(clause.objects.as_slice(), [_])
         && !clause.places.is_empty()
         && clause.places.iter().all(to_sink)
-        && next
-            .is_some_and(|next| !next.negated && speaks_of_it(next) && next.verbs.iter().any(washes))
+        && next.is_some_and(|next| !next.negated && speaks_of_it(next) && next.verbs.iter().any(washes))
 }
 
 /// Whether a phrase may be a lamp.

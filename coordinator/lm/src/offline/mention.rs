@@ -405,7 +405,8 @@ impl<'a> Discourse<'a> {
 
 /// "it all", "all of that": whatever was spoken of.
 fn is_all_of_it(text: &str) -> bool {
-    ["it all", "that all", "this all", "all of it", "all of that", "all of this", "all that", "all this"].contains(&text)
+    ["it all", "that all", "this all", "all of it", "all of that", "all of this", "all that", "all this"]
+        .contains(&text)
 }
 
 /// The states of what is full of a liquid.

@@ -282,8 +282,7 @@ fn one_clause<'a>(
         && !says_state(clause, interpreter.discourse.scene)
         && interpreter.first_situation(index, &situation::ranked(situations, &words, true), &words)
     {
-        let spoken = interpreter.brought_about(index);
-        interpreter.discourse.spoken.push(spoken);
+        interpreter.speak_of_what_came_about(index, clauses);
         return;
     }
     let before = Snapshot::take(interpreter);
@@ -300,8 +299,7 @@ fn one_clause<'a>(
         let literal = Snapshot::take(interpreter);
         before.restore(interpreter);
         if interpreter.first_situation(index, &ranked, &words) {
-            let spoken = interpreter.brought_about(index);
-            interpreter.discourse.spoken.push(spoken);
+            interpreter.speak_of_what_came_about(index, clauses);
             return;
         }
         literal.restore(interpreter);
@@ -335,7 +333,8 @@ fn says_state(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
     let full = |phrase: &syntax::Phrase| phrase.with.iter().any(|with| with.liquid().is_some());
     clause.wants()
         && clause.verbs.iter().any(|verb| matches!(verb.act, Act::Keep | Act::Place))
-        && (!clause.complement.is_empty() || clause.says_any(&["filled", "full"]) && clause.objects.iter().any(full))
+        && (!clause.complement.is_empty()
+            || clause.says_any(&["filled", "full"]) && clause.objects.iter().any(full))
         && !clause.objects.is_empty()
         && clause.objects.iter().all(is_here)
 }
@@ -361,9 +360,9 @@ fn says_where(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
     effect::untrue_place(clause, scene).is_some()
         || wished && liquid && clause.places.iter().any(fills)
         || moves
-        && (clause.objects.iter().any(|phrase| is_here(phrase, "pickupable"))
-            && clause.places.iter().any(goal)
-            || liquid && clause.places.iter().any(fills))
+            && (clause.objects.iter().any(|phrase| is_here(phrase, "pickupable"))
+                && clause.places.iter().any(goal)
+                || liquid && clause.places.iter().any(fills))
 }
 
 /// Whether a clause does something to a thing of the scene that it names.
@@ -373,11 +372,9 @@ fn is_concrete(clause: &Clause<'_>, lexicon: &Lexicon, scene: &Scene<'_>) -> boo
         syntax::Head::Named(_) => true,
         _ => false,
     };
-    // "… and put it on the counter"
-    let carries = clause.verbs.iter().any(|verb| verb.act == Act::Place)
-        && clause.objects.iter().any(|phrase| matches!(phrase.head, syntax::Head::Pronoun { .. }))
-        && clause.places.iter().any(|place| is_here(&place.phrase));
-    !is_weak(clause, lexicon) && (carries || clause.objects.iter().any(is_here))
+    !is_weak(clause, lexicon)
+        && (clause.carries_it() && clause.places.iter().any(|place| is_here(&place.phrase))
+            || clause.objects.iter().any(is_here))
 }
 
 /// Whether a clause can only mean going somewhere: "turn left" can, "turn on the lamp" cannot.

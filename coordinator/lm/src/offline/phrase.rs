@@ -64,7 +64,9 @@ impl Parser<'_> {
             (&phrase.head, phrase.quantity)
         {
             self.counted = Some(noun.clone());
-        } else if let (Head::Noun(noun), Some("one")) = (&phrase.head, self.words.get(start).map(String::as_str)) {
+        } else if let (Head::Noun(noun), Some("one")) =
+            (&phrase.head, self.words.get(start).map(String::as_str))
+        {
             self.counted = Some(noun.clone());
         }
         phrase.text = self.text_between(start, self.position);
@@ -447,14 +449,23 @@ impl Parser<'_> {
 
     /// ", each goes into the bowl", "a box with a bat, the ball goes …": something is said of what comes next.
     fn another_subject(&self, of_contents: bool) -> bool {
-        let pronoun = self.peek().is_some_and(|word| ["each", "both", "they", "it", "these", "those"].contains(&word));
+        // "chill the wine and the lights out"
+        if !self.switches {
+            let mut ahead = self.ahead(0);
+            if ahead.phrase(DEEPEST).is_some() && ahead.switched_follows() {
+                return true;
+            }
+        }
+        let pronoun =
+            self.peek().is_some_and(|word| ["each", "both", "they", "it", "these", "those"].contains(&word));
         if !pronoun && !of_contents {
             return false;
         }
         let mut ahead = self.ahead(0);
         ahead.phrase(DEEPEST).is_some()
             && ahead.peek().is_some_and(|word| {
-                super::clause::is_going(word) || ["should", "must", "need", "needs", "is", "are"].contains(&word)
+                super::clause::is_going(word)
+                    || ["should", "must", "need", "needs", "is", "are"].contains(&word)
             })
     }
 

@@ -10,6 +10,7 @@ use super::effect::{Change, Interpreter};
 use super::inflect;
 use super::lexicon::{LONGEST, Settings, squash};
 use super::mention::{Spoken, Which};
+use super::syntax::Clause;
 
 /// As many situations are tried as there may be nothing for in the scene.
 const MOST_TRIED: usize = 4;
@@ -135,8 +136,14 @@ impl Interpreter<'_, '_> {
         ranked.iter().any(|(situation, _)| self.situation(index, situation, words))
     }
 
-    /// What a situation spoke of, for "it" later: "make a coffee and bring it to the table".
-    pub fn brought_about(&self, index: usize) -> Spoken {
+    /// What a situation spoke of, where the next clause carries it on: "make a coffee and bring it to the table".
+    pub fn speak_of_what_came_about(&mut self, index: usize, clauses: &[Clause<'_>]) {
+        let carried = clauses.get(index + 1).is_some_and(Clause::carries_it);
+        let spoken = if carried { self.brought_about(index) } else { Spoken::default() };
+        self.discourse.spoken.push(spoken);
+    }
+
+    fn brought_about(&self, index: usize) -> Spoken {
         let mine = self.facts.iter().filter(|fact| fact.clause == index);
         let mut objects: Vec<usize> = mine
             .map(|fact| fact.entity)
@@ -149,7 +156,8 @@ impl Interpreter<'_, '_> {
             Change::Inside(place) => Some(place),
             _ => None,
         });
-        let carried = |&e: &usize| self.discourse.scene.affords(self.discourse.entities[e].kind(), "pickupable");
+        let carried =
+            |&e: &usize| self.discourse.scene.affords(self.discourse.entities[e].kind(), "pickupable");
         let mut places: Vec<usize> = vessel.filter(carried).collect();
         places.dedup();
         Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
@@ -226,10 +234,16 @@ impl Interpreter<'_, '_> {
         }
         let furniture = |word: &String| {
             let kinds = lexicon.noun(&[word]).map(|(noun, _)| noun.kinds.as_slice()).unwrap_or_default();
-            kinds.first().filter(|kind| scene.affords(kind, "receptacle") && !scene.affords(kind, "pickupable"))
+            kinds
+                .first()
+                .filter(|kind| scene.affords(kind, "receptacle") && !scene.affords(kind, "pickupable"))
         };
         words.iter().filter_map(furniture).any(|place| {
-            kind.strip_suffix("Lamp") == Some(place) || scene.of_kind(kind).iter().any(|object| scene.lies_in(object, &|parent| parent.kind == *place))
+            kind.strip_suffix("Lamp") == Some(place)
+                || scene
+                    .of_kind(kind)
+                    .iter()
+                    .any(|object| scene.lies_in(object, &|parent| parent.kind == *place))
         })
     }
 
@@ -247,7 +261,10 @@ impl Interpreter<'_, '_> {
             found.push(self.discourse.entity(kind, which));
         }
         let mut here = template.one.iter().filter(|kind| scene.has(kind));
-        let one = here.clone().find(named).or_else(|| here.clone().find(|kind| self.stands_at_what_is_named(kind, words)));
+        let one = here
+            .clone()
+            .find(named)
+            .or_else(|| here.clone().find(|kind| self.stands_at_what_is_named(kind, words)));
         let one = one.or_else(|| here.next());
         for kind in one.into_iter().chain(template.one_of_each.iter().filter(|kind| scene.has(kind))) {
             found.push(self.discourse.entity(kind, Which::Any));

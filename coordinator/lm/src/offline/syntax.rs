@@ -194,6 +194,13 @@ impl Clause<'_> {
         self.words.iter().any(|word| words.contains(&word.as_str()))
     }
 
+    /// Whether it puts somewhere what was spoken of: "… and put it on the counter".
+    pub fn carries_it(&self) -> bool {
+        self.verbs.iter().any(|verb| verb.act == Act::Place)
+            && self.objects.iter().any(|phrase| matches!(phrase.head, Head::Pronoun { .. }))
+            && self.places.iter().any(|place| matches!(place.relation, Relation::In | Relation::To))
+    }
+
     /// Whether it tells something rather than asks for it: it has no verb known, but somebody is or does something.
     pub fn is_remark(&self) -> bool {
         const TELLS: [&str; 16] = [

@@ -67,6 +67,33 @@ impl<'a> Parser<'a> {
         true
     }
 
+    /// "put the wine in the fridge to cool": what it is put there for.
+    pub(super) fn purpose(&mut self, clause: &mut Clause<'a>) -> bool {
+        if self.peek() != Some("to") || !places_something(clause) {
+            return false;
+        }
+        let Some(word) = self.word_at(1) else { return false };
+        let particle = usize::from(matches!(self.word_at(2), Some("up" | "down" | "off")));
+        let length = 2 + particle;
+        let ends = self
+            .word_at(length)
+            .is_none_or(|next| [",", ".", "and", "then"].contains(&next) || preposition(&[next]).is_some());
+        let verbs = self.lexicon.verbs(word);
+        let found = verbs.iter().find(|(form, particles, verb)| {
+            *form == VerbForm::Base && particles.is_empty() && matches!(verb.act, Act::Chill | Act::Heat)
+        });
+        match found {
+            Some((_, _, verb)) if ends => {
+                for phrase in &mut clause.objects {
+                    phrase.states.extend(verb.set.clone());
+                }
+                self.position += length;
+                true
+            }
+            _ => false,
+        }
+    }
+
     /// "the fridge should contain the milk": it is to be put there.
     pub(super) fn contents_told(&mut self, clause: &mut Clause<'a>) -> bool {
         let [vessel] = clause.objects.as_slice() else { return false };
@@ -318,7 +345,8 @@ impl<'a> Parser<'a> {
         // "needs a (good) wash"
         let article = usize::from(self.word_at(1) == Some("a"));
         let good = usize::from(
-            article == 1 && self.word_at(2).is_some_and(|w| ["good", "quick", "proper", "thorough"].contains(&w)),
+            article == 1
+                && self.word_at(2).is_some_and(|w| ["good", "quick", "proper", "thorough"].contains(&w)),
         );
         let at = 1 + article + good;
         let Some(word) = self.word_at(at) else { return false };
@@ -437,10 +465,16 @@ impl<'a> Parser<'a> {
         true
     }
 
-    /// "out" and "off" at the end of what is said: of a light, not of a place.
-    fn switched_follows(&self) -> bool {
-        let ends = self.word_at(1).is_none_or(|next| [".", ",", "and", "then", "when", "once"].contains(&next));
-        ends && matches!(self.peek(), Some("out" | "off" | "on"))
+    /// "out", "off" or "switched off" at the end of what is said: of a light, not of a place.
+    pub(in crate::offline) fn switched_follows(&self) -> bool {
+        let rest = self.rest();
+        (1..=3.min(rest.len())).any(|length| {
+            let ends = rest.get(length).is_none_or(|next| {
+                [".", ",", "and", "then", "when", "once", "at", "for", "in"].contains(next)
+            });
+            let switches = |state: &super::super::lexicon::Adjective| state.set.contains_key("isToggled");
+            ends && self.lexicon.adjective(&rest[..length]).is_some_and(switches)
+        })
     }
 
     /// Whether somebody or something else is spoken of from here on: "and the plate should be clean".
@@ -483,9 +517,10 @@ impl<'a> Parser<'a> {
             let goes_elsewhere = preposition(&behind.rest())
                 .is_some_and(|(other, _)| other != Relation::From && other != Relation::With);
             let another_pair = self.switched_follows()
+                || !clause.complement.is_empty() && self.state_told()
                 || relation != Relation::From
-                && !(relation == Relation::With && self.wants_place && clause.places.len() == 1)
-                && (goes_elsewhere || preposition(&self.rest()).is_some())
+                    && !(relation == Relation::With && self.wants_place && clause.places.len() == 1)
+                    && (goes_elsewhere || preposition(&self.rest()).is_some())
                 || matches!(self.peek(), Some("on" | "off" | "should" | "must" | "is" | "are" | "needs"));
             if another_pair {
                 self.position = start;
@@ -547,4 +582,9 @@ impl<'a> Parser<'a> {
             self.position += 1;
         }
     }
+}
+
+/// Whether a clause puts something somewhere, as far as it is read.
+fn places_something(clause: &Clause<'_>) -> bool {
+    !clause.objects.is_empty() && clause.verbs.iter().any(|verb| verb.act == Act::Place)
 }

@@ -141,7 +141,8 @@ impl Parser<'_> {
         let rest = ahead.rest();
         let told = (1..=3.min(rest.len())).rev().find_map(|n| Some((self.lexicon.adjective(&rest[..n])?, n)));
         let (state, length) = told.map_or((None, 1), |(state, length)| (Some(state), length));
-        let ends = ahead.word_at(length).is_none_or(|word| [",", ".", "and", "at", "afterwards"].contains(&word));
+        let ends =
+            ahead.word_at(length).is_none_or(|word| [",", ".", "and", "at", "afterwards"].contains(&word));
         let told = ["isOpen", "isToggled", "isFilledWithLiquid"];
         (ends || ahead.peek() == Some("full"))
             && state.is_some_and(|state| state.set.keys().any(|p| told.contains(&p.as_str())))
@@ -161,8 +162,9 @@ impl Parser<'_> {
     /// "once you have washed the fork": what is done, not a wish.
     fn perfect_follows(&self) -> bool {
         let person = self.position.checked_sub(1).and_then(|at| self.words.get(at));
-        person.is_some_and(|word| ["you", "we", "i", "they", "robot", "somebody", "one"].contains(&word.as_str()))
-            && self.ahead(1).verbs_here().is_some_and(|(form, _, _)| form == VerbForm::Past)
+        person.is_some_and(|word| {
+            ["you", "we", "i", "they", "robot", "somebody", "one"].contains(&word.as_str())
+        }) && self.ahead(1).verbs_here().is_some_and(|(form, _, _)| form == VerbForm::Past)
             && self.word_at(2).is_some()
     }
 
@@ -170,7 +172,18 @@ impl Parser<'_> {
     fn done_or_under_way(&self) -> Option<(Link, usize)> {
         const JOINS: [&str; 8] = ["when", "once", "after", "while", "whilst", "as", "until", "soon"];
         const WHAT: [&str; 13] = [
-            "that", "this", "it", "everything", "all", "of", "they", "these", "those", "things", "thats", "its",
+            "that",
+            "this",
+            "it",
+            "everything",
+            "all",
+            "of",
+            "they",
+            "these",
+            "those",
+            "things",
+            "thats",
+            "its",
             "else",
         ];
         const AUXILIARIES: [&str; 11] =
@@ -226,7 +239,8 @@ impl Parser<'_> {
             does && behind.verbs_here().is_some()
                 && !["goes", "belongs", "is"].contains(&word)
                 && behind.word_at(1).is_some_and(|next| {
-                    super::super::syntax::is_determiner(next) || ["it", "them", "on", "off"].contains(&next)
+                    super::super::syntax::is_determiner(next)
+                        || ["it", "them", "on", "off"].contains(&next)
                         || behind.ahead(1).verbs_here().is_some()
                 })
         })
@@ -265,7 +279,7 @@ impl Parser<'_> {
         const PERSONS: [&str; 10] =
             ["i", "we", "you", "he", "she", "they", "it", "that", "nobody", "everyone"];
         let why = match self.peek() {
-            Some("because") => true,
+            Some("because" | "until") => true,
             Some("so") if self.so_you_can_put().is_some() => {
                 self.position += self.so_you_can_put().unwrap_or(0);
                 return true;

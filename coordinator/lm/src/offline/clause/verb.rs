@@ -88,7 +88,8 @@ impl<'a> Parser<'a> {
             return true;
         }
         let rest = self.rest();
-        let negation = word == "never" || rest.starts_with(&["do", "not"]) || rest.starts_with(&["do", "the", "same"]);
+        let negation =
+            word == "never" || rest.starts_with(&["do", "not"]) || rest.starts_with(&["do", "the", "same"]);
         if negation
             || self.robot_opens()
             || self.lexicon.longest_small("sequence", &rest).is_some()

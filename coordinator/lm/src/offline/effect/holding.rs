@@ -45,7 +45,9 @@ impl<'a> Interpreter<'_, 'a> {
 
     /// "get the milk in the fridge": it is to be put there, where the scene knows that it lies elsewhere.
     fn is_got_into(&self, clause: &Clause<'a>, place: &Place) -> bool {
-        let (Head::Noun(home), [phrase]) = (&place.phrase.head, clause.objects.as_slice()) else { return false };
+        let (Head::Noun(home), [phrase]) = (&place.phrase.head, clause.objects.as_slice()) else {
+            return false;
+        };
         let Head::Noun(thing) = &phrase.head else { return false };
         let scene = self.discourse.scene;
         let lies_elsewhere = |kind: &String| {

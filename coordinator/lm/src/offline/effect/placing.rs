@@ -326,7 +326,9 @@ impl<'a> Interpreter<'_, 'a> {
         // What it is put next to may have been put somewhere itself.
         let stands = mentioned.first().and_then(|&e| {
             self.facts.iter().rev().find_map(|fact| match fact.change {
-                Change::Inside(place) if fact.entity == e => Some(self.discourse.entities[place].kind().to_owned()),
+                Change::Inside(place) if fact.entity == e => {
+                    Some(self.discourse.entities[place].kind().to_owned())
+                }
                 _ => None,
             })
         });

@@ -33,7 +33,10 @@ impl<'a> Interpreter<'_, 'a> {
             } else {
                 self.discourse.problem(format!("it is not said what to do about \"{}\"", clause.text), 0.3);
             }
-        } else if liquid && clause.places.iter().any(|place| self.runs_in(place)) && clause.unknown.iter().all(|w| is_going(w)) {
+        } else if liquid
+            && clause.places.iter().any(|place| self.runs_in(place))
+            && clause.unknown.iter().all(|w| is_going(w))
+        {
             let fill = self.discourse.lexicon.verbs("fill").into_iter().find(|(_, p, _)| p.is_empty());
             spoken = fill.map(|(_, _, verb)| self.fill(clause, verb)).unwrap_or_default();
         } else if !next.is_some_and(speaks_of_it) && untrue_place(clause, self.discourse.scene).is_some() {
@@ -76,8 +79,8 @@ impl<'a> Interpreter<'_, 'a> {
     /// "the pot should not stay on the counter", "don't leave the pan on the stove": what is to go from where.
     pub(super) fn not_there(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
         const STAYS: [&str; 14] = [
-            "stay", "stays", "belong", "belongs", "be", "remain", "stand", "standing", "lie", "lying", "leave",
-            "left", "sit", "go",
+            "stay", "stays", "belong", "belongs", "be", "remain", "stand", "standing", "lie", "lying",
+            "leave", "left", "sit", "go",
         ];
         let stays = clause.verbs.iter().all(|verb| matches!(verb.act, Act::Keep | Act::Place | Act::Go));
         let denied = clause.negated && clause.verb_text.starts_with("leav")
@@ -101,7 +104,10 @@ impl<'a> Interpreter<'_, 'a> {
     pub(super) fn put_elsewhere(&mut self, clause: &Clause<'a>, next: Option<&Clause<'a>>) -> Spoken {
         let goes_on = next.is_some_and(|next| {
             speaks_of_it(next)
-                && next.verbs.iter().any(|v| matches!(v.act, Act::Place | Act::Store | Act::Discard | Act::Hold))
+                && next
+                    .verbs
+                    .iter()
+                    .any(|v| matches!(v.act, Act::Place | Act::Store | Act::Discard | Act::Hold))
         });
         let store = self.discourse.lexicon.verbs("store").into_iter().find(|(_, p, _)| p.is_empty());
         match store {
@@ -124,7 +130,9 @@ impl<'a> Interpreter<'_, 'a> {
                 && !objects.iter().any(|object| is_in_state(object, &clause.complement))
         };
         let untrue = |phrase: &Phrase| match &phrase.head {
-            Head::Noun(noun) => noun.kinds.iter().find(|kind| scene.has(kind)).is_some_and(|kind| is_not_so(kind)),
+            Head::Noun(noun) => {
+                noun.kinds.iter().find(|kind| scene.has(kind)).is_some_and(|kind| is_not_so(kind))
+            }
             Head::Pronoun { .. } => {
                 let last = self.discourse.spoken.iter().rev().find(|spoken| !spoken.objects.is_empty());
                 last.is_some_and(|s| s.objects.iter().all(|&e| is_not_so(self.discourse.entities[e].kind())))

@@ -78,7 +78,12 @@ impl Discourse<'_> {
             .into_iter()
             .chain(sliced)
             .map(|(property, value)| {
-                if property == "isCooked" && !self.can_be_cooked(self.entities[entity].kind()) {
+                let kind = self.entities[entity].kind();
+                // A tap is closed by being turned off.
+                let switch = self.scene.affords(kind, "toggleable") && !self.scene.affords(kind, "openable");
+                if property == "isOpen" && switch {
+                    ("isToggled".to_owned(), value)
+                } else if property == "isCooked" && !self.can_be_cooked(self.entities[entity].kind()) {
                     ("temperature".to_owned(), lamma_domains::goal::PropertyValue::Word("Hot".to_owned()))
                 } else {
                     (property, value)

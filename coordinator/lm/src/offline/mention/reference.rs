@@ -68,7 +68,8 @@ impl Discourse<'_> {
             Some(spoken) if spoken.objects.len() > 1 => vec![&spoken.objects],
             _ => self.spoken.iter().map(|spoken| spoken.objects.as_slice()).collect(),
         };
-        let able = |entity: &usize| wants.is_none_or(|wants| self.affords(self.entities[*entity].kind(), wants));
+        let able =
+            |entity: &usize| wants.is_none_or(|wants| self.affords(self.entities[*entity].kind(), wants));
         let mut found: Vec<usize> = groups.concat().into_iter().filter(able).collect();
         found.sort_unstable();
         found.dedup();

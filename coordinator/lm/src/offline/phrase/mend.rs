@@ -71,7 +71,9 @@ impl Parser<'_> {
         let several = number.filter(|&count| count > 1);
         let head = match self.counted.clone() {
             Some(noun) if !all => Head::Noun(noun),
-            _ if several.is_some() && (all || other || front.phrase.definite) => Head::Pronoun { plural: true },
+            _ if several.is_some() && (all || other || front.phrase.definite) => {
+                Head::Pronoun { plural: true }
+            }
             _ => return None,
         };
         self.position += length;
@@ -101,7 +103,9 @@ impl Parser<'_> {
     /// "put it all on the table"
     pub(super) fn all_of_it_follows(&self) -> bool {
         self.word_at(1) == Some("all")
-            && self.word_at(2).is_none_or(|next| ",.".contains(next) || preposition(&[next]).is_some() || next == "and")
+            && self
+                .word_at(2)
+                .is_none_or(|next| ",.".contains(next) || preposition(&[next]).is_some() || next == "and")
     }
 
     /// "from it's hanger": a possessive, miswritten.
