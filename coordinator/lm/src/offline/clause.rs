@@ -481,4 +481,5 @@ fn places(clause: &Clause<'_>) -> bool {
 mod argument;
 mod choice;
 mod opening;
+mod place;
 mod verb;

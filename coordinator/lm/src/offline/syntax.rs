@@ -198,7 +198,10 @@ impl Clause<'_> {
     pub fn carries_it(&self) -> bool {
         self.verbs.iter().any(|verb| verb.act == Act::Place)
             && self.objects.iter().any(|phrase| matches!(phrase.head, Head::Pronoun { .. }))
-            && self.places.iter().any(|place| matches!(place.relation, Relation::In | Relation::To))
+            && self
+                .places
+                .iter()
+                .any(|place| matches!(place.relation, Relation::In | Relation::To | Relation::Near))
     }
 
     /// Whether it tells something rather than asks for it: it has no verb known, but somebody is or does something.
