@@ -25,9 +25,9 @@ pub struct Parser<'a> {
     /// What was chosen where the words left a choice.
     pub choices: Vec<String>,
     /// The place named last: "on one table … on another".
-    pub(super) last_place: Option<Phrase>,
+    pub(super) last_place: Option<Rc<Phrase>>,
     /// What was counted last: "two mugs … one … the other".
-    pub(super) counted: Option<Noun>,
+    pub(super) counted: Option<Rc<Noun>>,
     /// Whether the verb at hand still needs a place to put something.
     pub(super) wants_place: bool,
     /// Whether the verb at hand switches things on or off.

@@ -1,5 +1,7 @@
 //! Noun phrases: determiners, quantities, adjectives, heads, and what follows a head.
 
+use std::rc::Rc;
+
 use super::clause::Parser;
 use super::inflect;
 use super::lexicon::{LONGEST, Lexicon, Noun};
@@ -63,11 +65,11 @@ impl Parser<'_> {
         if let (Head::Noun(noun), Quantity::Count(_) | Quantity::Plural | Quantity::All) =
             (&phrase.head, phrase.quantity)
         {
-            self.counted = Some(noun.clone());
+            self.counted = Some(Rc::new(noun.clone()));
         } else if let (Head::Noun(noun), Some("one")) =
             (&phrase.head, self.words.get(start).map(String::as_str))
         {
-            self.counted = Some(noun.clone());
+            self.counted = Some(Rc::new(noun.clone()));
         }
         phrase.text = self.text_between(start, self.position);
         Some(phrase)

@@ -264,7 +264,12 @@ fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<(Stri
     let limit = if word.chars().count() >= 7 { 2 } else { 1 };
     let letters: Vec<char> = word.chars().collect();
     let mut best: Option<((usize, bool, usize), String)> = None;
+    let alphabet = letter_set(word);
     for candidate in known {
+        // An edit changes two letters of the alphabet at most, and a plural adds one: most words are far.
+        if (alphabet ^ letter_set(candidate)).count_ones() as usize > 2 * limit + 1 {
+            continue;
+        }
         let length = candidate.chars().count();
         if length < 4 || length.abs_diff(letters.len()) > limit {
             continue;
@@ -286,6 +291,11 @@ fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<(Stri
         }
     }
     best.map(|(score, answer)| (answer, score.0))
+}
+
+/// Which of the letters a to z are in a word.
+fn letter_set(word: &str) -> u32 {
+    word.bytes().filter(u8::is_ascii_lowercase).fold(0, |set, letter| set | 1 << (letter - b'a'))
 }
 
 /// Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours

@@ -1,5 +1,7 @@
 //! Places: which prepositional phrases a clause has, and where the next thing said begins.
 
+use std::rc::Rc;
+
 use super::super::syntax::{Clause, Head, Phrase, Place, Relation, preposition};
 use super::{Parser, is_going};
 
@@ -52,7 +54,7 @@ impl<'a> Parser<'a> {
             object.except.append(&mut phrase.except);
         }
         let said = self.text_between(start, start + length);
-        self.last_place = Some(phrase.clone());
+        self.last_place = Some(Rc::new(phrase.clone()));
         clause.places.push(Place::new(relation, &said, phrase));
         self.more_places(clause, relation);
         true
@@ -98,7 +100,7 @@ impl<'a> Parser<'a> {
         };
         let from = clause.places.iter().find(|place| place.relation == Relation::From);
         let from = from.or(clause.places.first()).map(|place| &place.phrase);
-        let Some(mut phrase) = from.or(self.last_place.as_ref()).cloned() else { return false };
+        let Some(mut phrase) = from.or(self.last_place.as_deref()).cloned() else { return false };
         phrase.other = true;
         (phrase.definite, phrase.indefinite) = (false, true);
         clause.places.push(Place::new(relation, "to", phrase));

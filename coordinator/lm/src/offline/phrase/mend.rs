@@ -69,7 +69,7 @@ impl Parser<'_> {
         };
         let other = front.phrase.other || word != "first" && number.is_none();
         let several = number.filter(|&count| count > 1);
-        let head = match self.counted.clone() {
+        let head = match self.counted.as_deref().cloned() {
             Some(noun) if !all => Head::Noun(noun),
             _ if several.is_some() && (all || other || front.phrase.definite) => {
                 Head::Pronoun { plural: true }
