@@ -278,7 +278,9 @@ impl<'a> Discourse<'a> {
             }
             Quantity::All => {
                 // "the towels": of what the word may mean, that of which there are several.
-                kinds.sort_by_key(|kind| self.scene.of_kind(kind).len() < 2);
+                if wants != Some("receptacle") {
+                    kinds.sort_by_key(|kind| self.scene.of_kind(kind).len() < 2);
+                }
                 self.every(&kinds[..1.min(kinds.len())], phrase, at)
             }
         }

@@ -1,8 +1,10 @@
 //! What follows the head of a noun phrase: contents, places, exceptions.
 
+use lamma_domains::goal::PropertyValue;
+
 use super::super::clause::Parser;
 use super::super::inflect::VerbForm;
-use super::super::lexicon::Noun;
+use super::super::lexicon::{Act, Noun, Settings, Verb};
 use super::super::syntax::{Head, Phrase, Place, Quantity, preposition};
 
 impl Parser<'_> {
@@ -89,6 +91,7 @@ impl Parser<'_> {
                     phrase.except.extend(self.phrases(depth + 1));
                 }
                 Some("that" | "which" | "who" | "you" | "we" | "i") if self.relative().is_some() => {
+                    self.states_of_relative(phrase);
                     if phrase.head == Head::Everything {
                         phrase.head = Head::Pronoun { plural: true };
                         phrase.quantity = Quantity::One;
@@ -104,6 +107,20 @@ impl Parser<'_> {
             if self.position == start {
                 return;
             }
+        }
+    }
+
+    /// "the bread that you heated": it is hot.
+    fn states_of_relative(&self, phrase: &mut Phrase) {
+        let length = self.relative().unwrap_or(0);
+        let verbs = (0..length).filter_map(|at| self.word_at(at)).flat_map(|word| self.lexicon.verbs(word));
+        let treats = |verb: &Verb| matches!(verb.act, Act::Heat | Act::Chill | Act::Cook | Act::Set);
+        let done = verbs.filter(|(form, particles, verb)| {
+            *form == VerbForm::Past && particles.is_empty() && treats(verb) && verb.wants.is_none()
+        });
+        for (_, _, verb) in done.take(1) {
+            let hot = Settings::from([("temperature".to_owned(), PropertyValue::Word("Hot".to_owned()))]);
+            phrase.states.extend(if verb.act == Act::Cook { hot } else { verb.set.clone() });
         }
     }
 
