@@ -304,6 +304,8 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 .rev()
                 .find(|s| !s.objects.is_empty())
                 .is_some_and(|s| s.objects.len() > 1);
+            // "open and switch it on": one thing of them.
+            let many = many && !wants.is_some_and(|wants| ["openable", "toggleable"].contains(&wants));
             let pronoun = Phrase::bare(Head::Pronoun { plural: many }, "it");
             found = self.discourse.mention(&pronoun, at, wants);
         }

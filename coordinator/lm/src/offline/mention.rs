@@ -117,6 +117,9 @@ impl<'a> Discourse<'a> {
             Head::Pronoun { .. } if phrase.other || matches!(phrase.quantity, Quantity::Count(_)) => {
                 self.some_of_them(phrase)
             }
+            Head::Pronoun { .. } if phrase.text.ends_with("former") || phrase.text.ends_with("latter") => {
+                self.one_of_two(phrase.text.ends_with("former"))
+            }
             Head::Pronoun { .. } if is_all_of_it(&phrase.text) => self.all_of_it(wants),
             Head::Pronoun { plural } => self.pronoun(*plural, wants),
             Head::Slices => self.slices(matches!(phrase.quantity, Quantity::Plural | Quantity::All)),
@@ -241,6 +244,10 @@ impl<'a> Discourse<'a> {
             if let Some(kind) = kinds.first() {
                 self.assume(format!("there is no {} here; a {kind} is taken for it", noun.word), 0.8);
             }
+        }
+        if kinds.is_empty() && wants == Some("openable") && self.lexicon.is_small("parts", &[&noun.word]) {
+            // "open its lid": of what was spoken of.
+            return self.pronoun(false, wants);
         }
         if kinds.is_empty() {
             self.problem(format!("there is no {} here", noun.word), 0.2);

@@ -216,6 +216,7 @@ impl Parser<'_> {
                 Head::Pronoun { plural: true }
             }
             "it" | "him" => Head::Pronoun { plural: false },
+            "former" | "latter" if front.phrase.definite => Head::Pronoun { plural: false },
             "them" | "they" => Head::Pronoun { plural: true },
             "this" | "that" | "one" if alone && self.can_be_pronoun() => Head::Pronoun { plural: false },
             "these" | "those" | "both" | "ones" | "all" | "each" if alone => Head::Pronoun { plural: true },

@@ -32,7 +32,13 @@ impl<'a> Interpreter<'_, 'a> {
             return self.put(clause, &at, &goal);
         }
         let meanwhile = clause.link == Link::While && self.lamp_wanted && self.switches_on;
-        if let Some(near) = clause.places.iter().find(|place| place.relation == Relation::Near)
+        // "put the fork with the plate": where that is.
+        let near = |place: &&Place| match place.relation {
+            Relation::Near => true,
+            Relation::With => matches!(place.phrase.head, Head::Pronoun { .. }),
+            _ => false,
+        };
+        if let Some(near) = clause.places.iter().find(near)
             && verb.act == Act::Place
             && !meanwhile
         {
@@ -105,14 +111,19 @@ impl<'a> Interpreter<'_, 'a> {
 
     /// "lay the paper with the book on the table": both go there.
     fn joined_with(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
-        let first = clause.places.first().filter(|place| place.relation == Relation::With)?;
         let goes = |place: &Place| matches!(place.relation, Relation::In | Relation::To);
-        let joins = self.is_movable(&first.phrase)
-            && !clause.objects.is_empty()
-            && clause.places[1..].iter().any(goes);
+        let with = |place: &&Place| place.relation == Relation::With && self.is_movable(&place.phrase);
+        let things: Vec<Phrase> =
+            clause.places.iter().filter(with).map(|place| place.phrase.clone()).collect();
+        // One thing named behind the place may stand there already: "on the desk with the laptop".
+        let before = clause.places.first().is_some_and(|place| with(&place));
+        let joins = !clause.objects.is_empty()
+            && clause.places.iter().any(goes)
+            && (before && !things.is_empty() || things.len() > 1);
         joins.then(|| {
             let mut joined = clause.clone();
-            joined.objects.push(joined.places.remove(0).phrase);
+            joined.places.retain(|place| !with(&place));
+            joined.objects.extend(things);
             joined
         })
     }

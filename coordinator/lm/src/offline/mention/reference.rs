@@ -61,6 +61,18 @@ impl Discourse<'_> {
             .collect()
     }
 
+    /// "the former", "the latter": the first or the last of those spoken of together.
+    pub(super) fn one_of_two(&mut self, first: bool) -> Vec<usize> {
+        let group = self.spoken.iter().rev().find(|spoken| spoken.objects.len() > 1);
+        let one = group
+            .and_then(|spoken| if first { spoken.objects.first() } else { spoken.objects.last() })
+            .copied();
+        if one.is_none() {
+            self.problem("it is not said which of them is meant".to_owned(), 0.3);
+        }
+        one.into_iter().collect()
+    }
+
     /// "put it all on the table": whatever was spoken of and can be carried.
     pub(super) fn all_of_it(&mut self, wants: Option<&str>) -> Vec<usize> {
         let last = self.spoken.iter().rev().find(|spoken| !spoken.objects.is_empty());
