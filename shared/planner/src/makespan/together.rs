@@ -80,12 +80,16 @@ impl Together {
 
     /// The set of an operator, if all of it undo the literal or make it true.
     pub fn settling(&self, operator: u32, lit: Lit) -> Option<usize> {
-        self.set_of[operator as usize].filter(|&set| self.whole.contains(&(lit, set)))
+        self.set(operator).filter(|&set| self.whole.contains(&(lit, set)))
+    }
+
+    fn set(&self, operator: u32) -> Option<usize> {
+        *self.set_of.get(operator as usize)?
     }
 
     /// Whether the operator is of the set.
     pub fn is_of(&self, operator: u32, set: usize) -> bool {
-        self.set_of[operator as usize] == Some(set)
+        self.set(operator) == Some(set)
     }
 
     /// The sets of which two in a row, or one at the end, are in vain for this goal.
