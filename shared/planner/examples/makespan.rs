@@ -17,6 +17,10 @@ use lamma_planner::{
     search::spread, solve,
 };
 
+/// How long to look for a first plan: from state to state, then by formulas.
+const WALK: Duration = Duration::from_secs(8);
+const FORMULAS: Duration = Duration::from_secs(30);
+
 fn main() -> Result<(), String> {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let work = |at: usize| args.get(at).and_then(|s| s.parse::<u64>().ok()).unwrap_or(20) * 1_000_000;
@@ -99,10 +103,15 @@ fn one(domain: &Path, problem: &Path, work: u64) -> Result<Row, String> {
     let scheduler = Scheduler::new(&task, &agent_of).ok_or("the goal is out of reach")?;
     let floor = scheduler.work(64).max(scheduler.depth());
     let cancel = AtomicBool::new(false);
-    let limits = Limits { time: Some(Duration::from_secs_f64(30.0)), ..Limits::default() };
+    let limits = Limits { time: Some(WALK), ..Limits::default() };
     let plan = match solve(&task, &SearchOptions::default(), &limits, &cancel) {
         Outcome::Found(plan) => task.trace(&plan),
-        Outcome::GaveUp(_) | Outcome::Unsolvable(_) => None,
+        Outcome::Unsolvable(_) => None,
+        Outcome::GaveUp(_) => {
+            let limits =
+                MakespanLimits { conflicts: u64::MAX, size: 8_000_000, work: u64::MAX, time: Some(FORMULAS) };
+            scheduler.find(&limits, &cancel).map(|schedule| schedule.operators().collect())
+        }
     };
     let found = processor_time() - start;
     let first = plan.as_ref().and_then(|plan| scheduler.makespan_of(plan));
@@ -113,7 +122,7 @@ fn one(domain: &Path, problem: &Path, work: u64) -> Result<Row, String> {
     let never = AtomicBool::new(false);
     let proof = match (&plan, first) {
         (Some(plan), Some(first)) => scheduler.improve(plan, first, floor, &limits, &never),
-        _ => scheduler.shortest(floor, None, &limits, &never),
+        _ => scheduler.shortest(floor, None, &MakespanLimits { conflicts: 20_000, ..limits }, &never),
     };
     let shorter = proof.schedule.map(|s| s.makespan());
     Ok(Row {
