@@ -108,6 +108,7 @@ fn rules(agents: u16) -> Value {
             ids.push(id);
         };
         allow("says", &["put"], "ingress", said_by(&keys, node, agents));
+        allow("learns that it is heard", &["declare_subscriber"], "egress", heard_as(&keys, node, agents));
         allow("asks to hear", &["declare_subscriber"], "ingress", keys.read_by(node));
         allow("hears", &["put"], "egress", keys.read_by(node));
         allow("is there", &["liveliness_token"], "ingress", vec![keys.live_of(node)]);
@@ -135,6 +136,15 @@ fn said_by(keys: &Keys, node: Node, agents: u16) -> Vec<String> {
             let own = Topic::all(agents).into_iter().filter(|t| t.publisher() == node);
             own.map(|t| keys.topic(t)).collect()
         }
+    }
+}
+
+/// The subscriptions that others hear `node` by. Who says something sends nothing until it knows of one.
+fn heard_as(keys: &Keys, node: Node, agents: u16) -> Vec<String> {
+    match node {
+        // Its reader reads those of all robots in one.
+        Node::Robot(_) => ["agent/*/report", "agent/*/request"].map(|t| keys.key(t)).into(),
+        Node::Supervisor | Node::Coordinator | Node::Simulator => said_by(keys, node, agents),
     }
 }
 

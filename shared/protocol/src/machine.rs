@@ -69,7 +69,8 @@ pub trait Machine {
     fn poll_timeout(&self) -> Option<Tick>;
 
     /// Which frame it wants to be woken for. A hint that spares a large team from being woken by everybody's steps:
-    /// it may be handed other frames, and whatever else it is handed, the newest frame comes with it.
+    /// it may be handed other frames, and whatever else it is handed, the newest frame comes with it (without its
+    /// facts, where one process hosts many machines).
     fn awaits(&self) -> Awaits {
         Awaits::AnyFrame
     }

@@ -17,6 +17,9 @@ pub(super) struct Crowd<'a, M: Machine> {
     pub(super) pending: VecDeque<(usize, Output<M::Job>)>,
     /// The newest frame they want published: it replaces the one before it, and readers need only the last.
     pub(super) newest_frame: Option<(usize, Vec<u64>)>,
+    /// The newest frame that many have been shown, without its facts, and how many there were.
+    frame: Vec<u64>,
+    frames: u64,
     unfinished: usize,
     start: Instant,
     record: Option<Recorder<'a, M::Done>>,
@@ -30,6 +33,8 @@ struct Seat<'a, M> {
     revision: Revision,
     timer: Option<Tick>,
     finished: bool,
+    /// How many frames there were when it was shown one.
+    shown: u64,
 }
 
 impl<'a, M: Machine> Crowd<'a, M> {
@@ -38,13 +43,15 @@ impl<'a, M: Machine> Crowd<'a, M> {
         settings: Settings<'a, M::Done>,
     ) -> Self {
         let revision = Revision { incarnation: settings.incarnation, number: 0 };
-        let seat = |(node, machine)| Seat { machine, node, revision, timer: None, finished: false };
+        let seat = |(node, machine)| Seat { machine, node, revision, timer: None, finished: false, shown: 0 };
         let seats: Vec<_> = machines.into_iter().map(seat).collect();
         Crowd {
             places: seats.iter().enumerate().map(|(i, seat)| (seat.node, i)).collect(),
             timers: BTreeSet::new(),
             pending: VecDeque::new(),
             newest_frame: None,
+            frame: Vec::new(),
+            frames: 0,
             unfinished: seats.len(),
             seats,
             start: settings.start,
@@ -66,8 +73,15 @@ impl<'a, M: Machine> Crowd<'a, M> {
         (0..self.seats.len()).for_each(|machine| self.drain(machine));
     }
 
-    /// One mutation of one machine, then drain.
+    /// One mutation of one machine, then drain. If it waits for a frame now that was there before, it is shown it.
     pub(super) fn handle(&mut self, machine: usize, input: Input<'_, M::Done>) {
+        self.feed(machine, input);
+        if self.seats[machine].shown < self.frames && self.wants(machine) {
+            self.show(machine);
+        }
+    }
+
+    fn feed(&mut self, machine: usize, input: Input<'_, M::Done>) {
         let now = self.now();
         let seat = &mut self.seats[machine];
         if seat.finished {
@@ -122,8 +136,38 @@ impl<'a, M: Machine> Crowd<'a, M> {
         }
     }
 
+    /// Who is alone is shown each frame. Of many, those who wait for it: a team of thousands makes thousands of
+    /// frames, and most concern few.
     pub(super) fn frame(&mut self, frame: Frame<'_>) {
-        (0..self.seats.len()).for_each(|machine| self.handle(machine, Input::Frame(frame)));
+        if self.seats.len() == 1 {
+            return self.handle(0, Input::Frame(frame));
+        }
+        self.frame = frame.without_facts();
+        self.frames += 1;
+        for machine in 0..self.seats.len() {
+            if self.wants(machine) {
+                self.seats[machine].shown = self.frames;
+                self.feed(machine, Input::Frame(frame));
+            }
+        }
+    }
+
+    /// Whether a machine waits for a frame like the newest.
+    fn wants(&self, machine: usize) -> bool {
+        match self.seats[machine].machine.awaits() {
+            Awaits::AnyFrame => true,
+            Awaits::Opening(gate) => Frame::new(&self.frame).is_ok_and(|frame| frame.open(gate)),
+            Awaits::NoFrame => false,
+        }
+    }
+
+    fn show(&mut self, machine: usize) {
+        self.seats[machine].shown = self.frames;
+        let words = std::mem::take(&mut self.frame);
+        if let Ok(frame) = Frame::new(&words) {
+            self.feed(machine, Input::Frame(frame));
+        }
+        self.frame = words;
     }
 
     pub(super) fn hint(&mut self, agent: AgentId) {
@@ -147,6 +191,7 @@ impl<'a, M: Machine> Crowd<'a, M> {
     pub(super) fn awaits(&self) -> Awaits {
         match &self.seats[..] {
             [one] => one.machine.awaits(),
+            many if many.iter().all(|seat| seat.machine.awaits() == Awaits::NoFrame) => Awaits::NoFrame,
             _ => Awaits::AnyFrame,
         }
     }

@@ -11,7 +11,7 @@ use std::hash::BuildHasher;
 use std::io::{self, ErrorKind, Read, Write};
 use std::os::unix::fs::{DirBuilderExt, MetadataExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use thiserror::Error;
 
@@ -26,8 +26,10 @@ const MAX_ROOT: usize = 42;
 /// Names that are tried in one folder.
 const TRIES: usize = 8;
 
-/// A living process takes microseconds from the name of a file to its size.
-const HALF_MADE: Duration = Duration::from_millis(50);
+/// A process takes microseconds from the name of a file to its size, but on a busy host it may have to wait for its
+/// turn between the two: taking the file from a living maker would cut it off from all others for good.
+const HALF_MADE: Duration = Duration::from_secs(2);
+const LOOK_AGAIN: Duration = Duration::from_millis(5);
 
 /// Something of a run could not be removed.
 #[derive(Debug, Error)]
@@ -164,12 +166,14 @@ pub(super) fn remove_half_made(tag: &str) {
         let files = ours.filter_map(|(_, path)| Some((fs::metadata(&path).ok()?, path)));
         files.filter(|(meta, _)| meta.is_file() && meta.len() == 0).map(|(m, path)| (path, m.ino())).collect()
     };
-    let before = empty();
-    if before.is_empty() {
-        return;
+    let mut lasting = empty();
+    let end = Instant::now() + HALF_MADE;
+    while !lasting.is_empty() && Instant::now() < end {
+        std::thread::sleep(LOOK_AGAIN);
+        let now = empty();
+        lasting.retain(|file| now.contains(file));
     }
-    std::thread::sleep(HALF_MADE);
-    for (path, _) in empty().intersection(&before) {
+    for (path, _) in lasting {
         tracing::debug!("removing {}: its maker has died", path.display());
         let _ = fs::remove_file(path);
     }

@@ -7,9 +7,8 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use lamma_protocol::{Awaits, Node, Topic, codec};
 use zenoh::bytes::ZBytes;
-use zenoh::key_expr::KeyExpr;
 use zenoh::liveliness::LivelinessToken;
-use zenoh::pubsub::Subscriber;
+use zenoh::pubsub::{Publisher, Subscriber};
 use zenoh::qos::CongestionControl;
 use zenoh::sample::{Sample, SampleKind};
 use zenoh::{Session, Wait};
@@ -46,7 +45,7 @@ pub struct Endpoint {
 
 /// What was said last on a topic, and when it is to be said again.
 struct Said {
-    key: KeyExpr<'static>,
+    on: Publisher<'static>,
     payload: ZBytes,
     number: u64,
     again: Instant,
@@ -118,12 +117,14 @@ impl Endpoint {
         let said = match self.said.remove(&topic) {
             Some(said) => Said { payload: payload.into(), number, again, pause, ..said },
             None => {
-                // Declared once, a key is a number on the way.
-                let key = self.session.declare_keyexpr(self.keys.topic(topic)).wait().map_err(fail)?;
-                Said { key, payload: payload.into(), number, again, pause }
+                // Where a publisher is declared, the router keeps the way for its key. For a key that it meets in
+                // messages only, it works out the way of each message anew, from all the keys it knows.
+                let on = self.session.declare_publisher(self.keys.topic(topic));
+                let on = on.congestion_control(CongestionControl::Drop).express(self.at_once);
+                Said { on: on.wait().map_err(fail)?, payload: payload.into(), number, again, pause }
             }
         };
-        let sent = said.send(&self.session, self.opened, self.at_once);
+        let sent = said.send(self.opened);
         self.said.insert(topic, said);
         self.inbox.stats.published = number;
         sent.map_err(fail)
@@ -138,7 +139,7 @@ impl Endpoint {
             if !welcome && said.again > now {
                 continue;
             }
-            if let Err(error) = said.send(&self.session, self.opened, self.at_once) {
+            if let Err(error) = said.send(self.opened) {
                 tracing::debug!(%topic, "not said again: {error}");
             }
             said.pause = if welcome { FIRST_REPEAT } else { (said.pause * 2).min(LAST_REPEAT) };
@@ -149,10 +150,9 @@ impl Endpoint {
 }
 
 impl Said {
-    fn send(&self, session: &Session, opened: u64, at_once: bool) -> zenoh::Result<()> {
+    fn send(&self, opened: u64) -> zenoh::Result<()> {
         let stamp = Stamp { session: opened, number: self.number };
-        let put = session.put(&self.key, self.payload.clone()).attachment(&stamp.to_bytes()[..]);
-        put.congestion_control(CongestionControl::Drop).express(at_once).wait()
+        self.on.put(self.payload.clone()).attachment(&stamp.to_bytes()[..]).wait()
     }
 }
 
