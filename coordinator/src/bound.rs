@@ -68,12 +68,6 @@ impl JointTask {
         Some(depth.max(work.div_ceil(self.members.max(1))))
     }
 
-    /// Some plan, by formulas of whole schedules; `None` if none is found within the limits.
-    pub fn find(&self, limits: &MakespanLimits, cancel: &AtomicBool) -> Option<Plan> {
-        let schedule = Scheduler::new(&self.task, &self.member_of)?.find(limits, cancel)?;
-        Some(self.task.plan(&schedule.operators().collect::<Vec<_>>()))
-    }
-
     /// A shorter schedule than the plan's, which takes `makespan` steps, and a bound of at least `floor` (a proved
     /// one). `None` if the goal is out of reach.
     pub fn improve(

@@ -11,7 +11,7 @@ use std::time::Duration;
 use lamma_pddl::ast::{Condition, GroundAtom, Init};
 use lamma_planner::interpreter::{Interpreter, WorldState};
 use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder};
-use lamma_planner::{Countdown, GaveUp, Limits, MakespanLimits, Outcome, Plan, SearchOptions};
+use lamma_planner::{Countdown, Limits, MakespanLimits, Outcome, Plan, SearchOptions, Task};
 use lamma_protocol::StepIndex;
 
 use crate::allocation::{Allocation, NoAllocation, PackageSpec};
@@ -24,11 +24,6 @@ use crate::team::Team;
 const MEMORY: usize = 3 << 30;
 /// Bounds of each search for a reason: without one, "infeasible" is still true.
 const REASON_EXPANSIONS: u64 = 20_000;
-
-/// The first two ways to look for a plan have this part of the time each.
-const TURNS: u32 = 4;
-/// Literals of a formula for a plan: some 300 MB with the solver's own copy.
-const FORMULA: u64 = 8_000_000;
 
 /// What may be spent on a shorter schedule beyond the limits for each operator of the task, and at most: what it
 /// takes to look at a part of a schedule grows with the operators.
@@ -69,7 +64,7 @@ pub fn plan_jointly(input: &JointInput, cancel: &AtomicBool) -> Result<JointPlan
     let gave_up = |why: &dyn std::fmt::Display| NoAllocation::GaveUp(why.to_string());
     let joint = JointTask::new(team, &input.available, &input.facts, &input.goal).map_err(|e| gave_up(&e))?;
     let countdown = Countdown::from(Duration::from_millis(input.time_ms));
-    let plan = search(input, &joint, countdown, cancel)?;
+    let plan = search(input, &joint.task, countdown, cancel)?;
     let interpreter = team.interpreter().map_err(|e| gave_up(&e))?;
     let order = explain(input, &interpreter, &plan).map_err(|why| gave_up(&why))?;
     let limits = within(&input.makespan, joint.task.operators.len(), countdown);
@@ -119,30 +114,14 @@ fn improve(
     }
 }
 
-/// Searches in turns: a walk from state to state, which is quick where it gets there at all; formulas of whole
-/// schedules, which see at once what is used up; and the walk again for what time is left.
 fn search(
     input: &JointInput,
-    joint: &JointTask,
+    task: &Task,
     countdown: Countdown,
     cancel: &AtomicBool,
 ) -> Result<Plan, NoAllocation> {
-    let share = countdown.left().map(|left| left / TURNS);
-    let walk = |time: Option<Duration>| {
-        let limits = Limits { time, memory_bytes: Some(MEMORY), ..Limits::default() };
-        lamma_planner::solve(&joint.task, &SearchOptions::default(), &limits, cancel)
-    };
-    let outcome = match walk(share) {
-        Outcome::GaveUp(GaveUp::Time | GaveUp::Memory) => {
-            let limits = MakespanLimits { conflicts: u64::MAX, size: FORMULA, work: u64::MAX, time: share };
-            match joint.find(&limits, cancel) {
-                Some(plan) => Outcome::Found(plan),
-                None => walk(countdown.left()),
-            }
-        }
-        outcome => outcome,
-    };
-    match outcome {
+    let limits = Limits { time: countdown.left(), memory_bytes: Some(MEMORY), ..Limits::default() };
+    match lamma_planner::solve(task, &SearchOptions::default(), &limits, cancel) {
         Outcome::Found(plan) => Ok(plan),
         Outcome::GaveUp(why) => Err(NoAllocation::GaveUp(why.to_string())),
         Outcome::Unsolvable(why) => {

@@ -17,9 +17,8 @@ use lamma_planner::{
     search::spread, solve,
 };
 
-/// How long to look for a first plan: from state to state, then by formulas.
-const WALK: Duration = Duration::from_secs(8);
-const FORMULAS: Duration = Duration::from_secs(30);
+/// How long to look for a first plan.
+const WALK: Duration = Duration::from_secs(30);
 
 fn main() -> Result<(), String> {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -106,12 +105,7 @@ fn one(domain: &Path, problem: &Path, work: u64) -> Result<Row, String> {
     let limits = Limits { time: Some(WALK), ..Limits::default() };
     let plan = match solve(&task, &SearchOptions::default(), &limits, &cancel) {
         Outcome::Found(plan) => task.trace(&plan),
-        Outcome::Unsolvable(_) => None,
-        Outcome::GaveUp(_) => {
-            let limits =
-                MakespanLimits { conflicts: u64::MAX, size: 8_000_000, work: u64::MAX, time: Some(FORMULAS) };
-            scheduler.find(&limits, &cancel).map(|schedule| schedule.operators().collect())
-        }
+        Outcome::GaveUp(_) | Outcome::Unsolvable(_) => None,
     };
     let found = processor_time() - start;
     let first = plan.as_ref().and_then(|plan| scheduler.makespan_of(plan));

@@ -119,16 +119,12 @@ proptest! {
             prop_assert_eq!(fewest, None);
             return Ok(());
         };
-        // That there is none is not proved by looking for one.
         let Some(fewest) = fewest else { return Ok(()) };
         prop_assert!(scheduler.depth() <= fewest && scheduler.work(64) <= fewest);
         let limits = MakespanLimits::default();
         let shortest = scheduler.shortest(0, Some(fewest + 3), &limits, &never);
         prop_assert_eq!(shortest.lower_bound, Some(fewest));
         prop_assert_eq!(shortest.schedule.map(|schedule| schedule.makespan()), Some(fewest));
-        let found = scheduler.find(&limits, &never).expect("there is one");
-        let end = after(&task, &task.init, &found.operators().collect::<Vec<_>>());
-        prop_assert!(task.is_goal(&end.unwrap()));
     }
 }
 

@@ -6,7 +6,6 @@
 //! the question "is there a schedule?" is a propositional formula ([`formula`]); that it has no model proves
 //! that no plan of the team is so short.
 
-mod find;
 mod formula;
 mod improve;
 mod layers;

@@ -39,21 +39,15 @@ impl<'a> Fuel<'a> {
         Fuel { conflicts: limits.conflicts, size: limits.size, work: limits.work, deadline, cancel }
     }
 
-    /// Does something that may use no more than so many conflicts.
-    pub fn at_most<T>(&mut self, conflicts: u64, what: impl FnOnce(&mut Self) -> T) -> T {
+    /// Does something that may use no more than so many conflicts, with formulas in proportion.
+    pub fn for_window<T>(&mut self, conflicts: u64, what: impl FnOnce(&mut Self) -> T) -> T {
         let given = conflicts.min(self.conflicts);
         let all = std::mem::replace(&mut self.conflicts, given);
-        let result = what(self);
-        self.conflicts = all - (given - self.conflicts);
-        result
-    }
-
-    /// The same with formulas in proportion.
-    pub fn for_window<T>(&mut self, conflicts: u64, what: impl FnOnce(&mut Self) -> T) -> T {
         let smaller = self.size.min(conflicts.saturating_mul(SIZE_PER_CONFLICT));
         let size = std::mem::replace(&mut self.size, smaller);
-        let result = self.at_most(conflicts, what);
+        let result = what(self);
         self.size = size;
+        self.conflicts = all - (given - self.conflicts);
         result
     }
 
