@@ -9,6 +9,7 @@ mod limits;
 mod novelty;
 mod open_list;
 mod portfolio;
+mod projection;
 mod registry;
 mod spread;
 mod type_buckets;
@@ -130,6 +131,9 @@ pub fn solve_with_statistics(
     statistics.expanded = meter.expanded;
     match found {
         Ok(Some(path)) if options.engine != Engine::Portfolio => Outcome::Found(task.plan(&path)),
+        Err(reason) if reason != GaveUp::Cancelled && projection::is_out_of_reach(task) => {
+            Outcome::Unsolvable(Unsolvable::OnAPart)
+        }
         Err(reason) => Outcome::GaveUp(reason),
         Ok(None) => Outcome::Unsolvable(Unsolvable::Exhausted),
         Ok(Some(path)) => {
