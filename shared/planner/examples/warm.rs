@@ -45,7 +45,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
     }
-    println!("{} problems, {rounds} rounds each, {steps} steps in all their plans; microseconds", problems.len());
+    println!(
+        "{} problems, {rounds} rounds each, {steps} steps in all their plans; microseconds",
+        problems.len()
+    );
     println!("{:10} {:>9} {:>9} {:>9}", "stage", "p50", "p99", "most");
     for (stage, micros) in STAGES.iter().zip(&mut micros) {
         micros.sort_by(f64::total_cmp);
