@@ -80,13 +80,17 @@ impl JointTask {
     ) -> Option<Makespan> {
         let scheduler = Scheduler::new(&self.task, &self.member_of)?;
         // A bound above a plan that is known would be a fault of the proof; never print one.
-        let sets = (OPERATORS_IN_ALL_SETS / self.task.operators.len().max(1)).clamp(1, SETS);
-        let floor = floor.max(scheduler.work(sets)).min(makespan);
+        let floor = floor.max(self.work(&scheduler)).min(makespan);
         if floor == makespan {
             return Some(Makespan { lower_bound: Some(floor), schedule: None });
         }
         let operators = self.task.trace(plan).unwrap_or_default();
         Some(scheduler.improve(&operators, makespan, floor, limits, cancel))
+    }
+
+    /// The bound from the work of some of the team.
+    fn work(&self, scheduler: &Scheduler<'_>) -> u32 {
+        scheduler.work((OPERATORS_IN_ALL_SETS / self.task.operators.len().max(1)).clamp(1, SETS))
     }
 
     /// [`JointTask::floor`], or [`travel_floor`] if that says more.
@@ -106,6 +110,7 @@ impl JointTask {
         cancel: &AtomicBool,
     ) -> Option<Makespan> {
         let scheduler = Scheduler::in_order(&self.task, &self.member_of, milestones)?;
+        let from = from.max(self.work(&scheduler)).min(below.unwrap_or(u32::MAX));
         Some(scheduler.shortest(from, below, limits, cancel))
     }
 }

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use lamma_pddl::ast::{Condition, GroundAtom};
 use lamma_planner::interpreter::{GroundCondition, Interpreter, WorldState};
 use lamma_planner::partial_order::{TeamStep, literal_effects};
-use lamma_planner::{FactId, Literal, Milestone, Need};
+use lamma_planner::{FactId, Literal, Milestone, Need, all_before};
 
 use crate::bound::JointTask;
 use crate::shorten::Wanted;
@@ -106,12 +106,5 @@ fn new_literals(later: &Ordered, wanted: &[Ordered], initial: &WorldState) -> BT
 
 /// All that a sub-task follows, the next one's predecessors included: the next one may hold already.
 fn before(later: &Ordered, wanted: &[Ordered]) -> BTreeSet<usize> {
-    let mut found = BTreeSet::new();
-    let mut open = later.after.clone();
-    while let Some(next) = open.pop() {
-        if found.insert(next) {
-            open.extend(&wanted[next].after);
-        }
-    }
-    found
+    all_before(&later.after, |next| &wanted[next].after)
 }

@@ -34,10 +34,11 @@ fn request(agent: u16, number: u64) -> (Topic, Envelope) {
 /// Runs `test` while the bridges of both hosts work. Every `nth` parcel is lost.
 fn with_bridges(agents: u16, nth: u64, test: impl FnOnce(&Hub, &Hub, [&Bridge; 2])) {
     let (near, far) = (Hub::new(agents), Hub::new(agents));
-    let stop = Stop::default();
+    // One each: a bridge ends by itself when it has carried the supervisor's last word, the other when it has said it.
+    let stops = [Stop::default(), Stop::default()];
     let authorities = vec![Node::Supervisor, Node::Coordinator, Node::Simulator];
-    let at_near = Bridge::new(Away::from([("far".into(), robots(0, agents))]), 1, stop.clone());
-    let at_far = Bridge::new(Away::from([("near".into(), authorities)]), 2, stop.clone());
+    let at_near = Bridge::new(Away::from([("far".into(), robots(0, agents))]), 1, stops[0].clone());
+    let at_far = Bridge::new(Away::from([("near".into(), authorities)]), 2, stops[1].clone());
     let count = AtomicU64::new(1);
     std::thread::scope(|scope| {
         for (from, to, name, hub) in [(&at_near, &at_far, "near", &near), (&at_far, &at_near, "far", &far)] {
@@ -54,7 +55,7 @@ fn with_bridges(agents: u16, nth: u64, test: impl FnOnce(&Hub, &Hub, [&Bridge; 2
         }
         let bridges: [&Arc<Bridge>; 2] = [&at_near, &at_far];
         test(&near, &far, bridges.map(|b| &**b));
-        stop.stop();
+        stops.iter().for_each(Stop::stop);
     });
 }
 

@@ -21,7 +21,7 @@ pub mod validate;
 pub use explain::explain_unreachable;
 pub use ground::{GroundError, GroundLimits, ground};
 pub use interpreter::{GroundAction, GroundCondition, GroundEffect, Interpreter, WorldState};
-pub use makespan::{Makespan, MakespanLimits, Milestone, Need, Schedule, Scheduler};
+pub use makespan::{Makespan, MakespanLimits, Milestone, Need, Schedule, Scheduler, all_before};
 pub use plan::{GroundAct, Literal, Plan};
 pub use sas::write_sas;
 pub use search::{

@@ -221,7 +221,7 @@ pub fn coordinator_parts(
         method: spec.method,
         solve_only: spec.solve_only,
         expansions: EXPANSIONS,
-        makespan: makespan_limits(spec),
+        makespan: makespan_limits(spec, household.is_some()),
         time_limit_ms: spec.time_limit_ms,
         step_ms: spec.step_ms,
         patience: spec.patience,
@@ -269,10 +269,15 @@ impl Author for Reader {
 }
 
 /// What may be spent on a shorter plan. Without a wish of the person's no clock is asked, so that the same input
-/// gives the same plan on every machine.
-fn makespan_limits(spec: &RunSpec) -> MakespanLimits {
+/// gives the same plan on every machine. A household's formulas are small, and most are decided within this; it is a
+/// second or two where they are not.
+fn makespan_limits(spec: &RunSpec, household: bool) -> MakespanLimits {
     match spec.makespan_ms {
-        None => MakespanLimits { conflicts: 1_000, size: 1_000_000, ..MakespanLimits::default() },
+        None => MakespanLimits {
+            conflicts: if household { 24_000 } else { 1_000 },
+            size: 1_000_000,
+            ..MakespanLimits::default()
+        },
         Some(ms) => MakespanLimits {
             conflicts: u64::MAX,
             size: 50_000_000,

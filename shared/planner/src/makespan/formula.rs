@@ -54,6 +54,7 @@ pub(super) fn formula(
     }
     // The first layer's literals are those that hold at the start.
     variables[0].lits.iter().for_each(|&lit| clauses.clause([lit]));
+    let mut last_done: Vec<(usize, Option<Bool>)> = together.in_vain(goal).map(|set| (set, None)).collect();
     for step in 0..layers.len() - 1 {
         let mut builder = Step {
             clauses: &mut clauses,
@@ -69,10 +70,14 @@ pub(super) fn formula(
         builder.one_action_each();
         builder.requirements();
         builder.frame(&layers[step + 1], &variables[step + 1]);
+        for (set, last) in &mut last_done {
+            *last = Some(builder.nothing_in_vain(*set, *last));
+        }
         if clauses.size() > fuel.size || fuel.stopped() {
             return None;
         }
     }
+    last_done.iter().filter_map(|(_, last)| *last).for_each(|last| clauses.clause([!last]));
     let last = layers.len() - 1;
     for goal in goal {
         let at = layers[last].lits.binary_search(goal).ok();
@@ -265,19 +270,19 @@ impl Step<'_> {
             }
             return;
         }
-        let mut kept_from: Vec<u32> = Vec::new();
+        let mut sets: Vec<usize> = Vec::new();
         for threat in model.threats[lit.index()].iter() {
             let Some(operator) = self.operator(threat.operator) else { continue };
-            let agent = model.agent_of[threat.operator as usize];
             if threat.harmless_if.is_empty()
-                && let Some(set) = self.together.of(lit, agent)
+                && let Some(set) = self.together.settling(threat.operator, lit)
             {
-                if !kept_from.contains(&agent) {
-                    kept_from.push(agent);
-                    self.keep_from(lit, variable, agent, set);
+                if !sets.contains(&set) {
+                    sets.push(set);
+                    self.keep_from(lit, variable, set);
                 }
                 continue;
             }
+            let agent = model.agent_of[threat.operator as usize];
             let mut clause = vec![!variable, !operator];
             let events = model.events_of[threat.operator as usize].clone();
             let makers = &model.makers[lit.index()];
@@ -288,15 +293,13 @@ impl Step<'_> {
         }
     }
 
-    /// If the agent does one of the set, the literal holds afterwards only if that makes it so.
-    fn keep_from(&mut self, lit: Lit, variable: Bool, agent: u32, set: usize) {
+    /// If one of the set is done, the literal holds afterwards only if that makes it so.
+    fn keep_from(&mut self, lit: Lit, variable: Bool, set: usize) {
         let model = self.model;
         let mut clause = vec![!variable, !self.one_of(set)];
         for maker in &model.makers[lit.index()] {
             let operator = model.operator_of(*maker);
-            if model.agent_of[operator as usize] != agent
-                || self.together.sets[set].binary_search(&operator).is_err()
-            {
+            if !self.together.is_of(operator, set) {
                 continue;
             }
             let undoes = |t: &Threat| t.operator == operator && t.harmless_if.is_empty();
@@ -322,5 +325,24 @@ impl Step<'_> {
             }
         }
         one
+    }
+
+    /// Nothing is done in vain: `last` says that the last thing that the agent of a set did is of the set, before the
+    /// step and, as returned, after it.
+    fn nothing_in_vain(&mut self, set: usize, last: Option<Bool>) -> Bool {
+        let one = self.one_of(set);
+        let after = self.clauses.variable();
+        self.clauses.clause([!one, after]);
+        if let Some(last) = last {
+            self.clauses.clause([!last, !one]);
+            let agent = self.model.agent_of[self.together.sets[set][0] as usize];
+            let operators = self.layer.operators.iter().zip(&self.own.operators);
+            let others = operators.filter(|&(&operator, _)| {
+                self.model.agent_of[operator as usize] == agent && !self.together.is_of(operator, set)
+            });
+            let clause: Vec<Bool> = [!last, after].into_iter().chain(others.map(|(_, &v)| v)).collect();
+            self.clauses.clause(clause);
+        }
+        after
     }
 }

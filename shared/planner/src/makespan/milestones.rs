@@ -38,14 +38,13 @@ impl Model {
         let mut reached: Vec<Option<Lit>> = vec![None; milestones.len()];
         let mut relied_on: Vec<Vec<Lit>> = vec![Vec::new(); self.preconditions.len()];
         for at in 0..milestones.len() {
-            let earlier: BTreeSet<Lit> = all_before(milestones, at)
-                .into_iter()
-                .flat_map(|before| own[before].iter().copied())
-                .collect();
+            let before = all_before(&milestones[at].after, |next| &milestones[next].after);
+            let earlier: BTreeSet<Lit> =
+                before.iter().flat_map(|&before| own[before].iter().copied()).collect();
             let later = own[at].iter().filter(|lit| !earlier.contains(lit) && !self.initially[lit.index()]);
             let later: Vec<Lit> = later.copied().collect();
             // All of them, not the next alone: that one may hold already, and the one before it not.
-            for before in all_before(milestones, at) {
+            for before in before {
                 let lit = match reached[before] {
                     Some(lit) => lit,
                     None => self.derived(task, &milestones[before].need),
@@ -102,13 +101,14 @@ impl Model {
     }
 }
 
-/// All that come before a milestone, directly or through others.
-fn all_before(milestones: &[Milestone], at: usize) -> BTreeSet<usize> {
+/// All that come before some of several things, these included: directly, or through others. `after` says what each
+/// comes after.
+pub fn all_before<'a>(first: &[usize], after: impl Fn(usize) -> &'a [usize]) -> BTreeSet<usize> {
     let mut before = BTreeSet::new();
-    let mut open = milestones[at].after.clone();
+    let mut open = first.to_vec();
     while let Some(next) = open.pop() {
         if before.insert(next) {
-            open.extend(&milestones[next].after);
+            open.extend(after(next));
         }
     }
     before

@@ -15,6 +15,7 @@ mod order;
 mod pairs;
 mod relevance;
 mod sat;
+mod stand_in;
 mod together;
 mod windows;
 mod work;
@@ -25,10 +26,9 @@ use std::time::Duration;
 use crate::search::eliminate;
 use crate::task::{OperatorId, Task};
 use layers::{NEVER, Reach, Waiting};
-pub use milestones::{Milestone, Need};
+pub use milestones::{Milestone, Need, all_before};
 use model::{Lit, Model};
 use order::Order;
-use relevance::Relevance;
 use sat::{Found, Fuel, Question, is_true};
 use together::Together;
 use windows::leads_to;
@@ -154,14 +154,15 @@ impl<'a> Scheduler<'a> {
         if reach.goal(&model.goal) == NEVER {
             return None;
         }
-        let relevant = Relevance::new(&model).operators;
+        let relevant = stand_in::needed(task, &model);
         let plain = model.events.is_empty() && model.derivations.is_empty() && !ordered;
         let depth = match plain && !task.has_numbers() {
             true => pairs::raise(&model, &relevant, &mut reach, PAIRS),
             false => reach.goal(&model.goal),
         };
         // Without conditional effects, what an agent may do to a literal is one variable anyway.
-        let together = if model.events.is_empty() { Together::default() } else { Together::new(&model) };
+        let together =
+            if model.events.is_empty() { Together::default() } else { Together::new(task, &model) };
         Some(Scheduler { task, model, waiting, reach, depth, relevant, together, ordered })
     }
 
@@ -177,7 +178,7 @@ impl<'a> Scheduler<'a> {
 
     /// Looks for the shortest schedule among those of at least `from` and less than `below` steps; `from` must be
     /// a proved bound. First upwards, where every failure raises the bound and the first success is a shortest
-    /// schedule; when half of the conflicts are spent, downwards from `below`, where every success is better than
+    /// schedule; when three quarters of the conflicts are spent, downwards from `below`, where every success is better than
     /// what was known.
     pub fn shortest(
         &self,
@@ -186,7 +187,7 @@ impl<'a> Scheduler<'a> {
         limits: &MakespanLimits,
         cancel: &AtomicBool,
     ) -> Makespan {
-        let down = below.map_or(0, |_| limits.conflicts / 2);
+        let down = below.map_or(0, |_| limits.conflicts / 4);
         let mut fuel = Fuel::new(limits, cancel);
         fuel.conflicts -= down;
         fuel.work = u64::MAX;

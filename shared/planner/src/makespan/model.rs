@@ -61,6 +61,8 @@ pub(super) struct Model {
     pub groups: Vec<Vec<Lit>>,
     facts: usize,
     variable_of: Vec<u32>,
+    /// Whether each fact is of a variable with more than two values.
+    many: Vec<bool>,
     /// Facts that need no support, because they are not tracked: that a derived fact does not hold, and
     /// comparisons of numbers.
     free: Vec<bool>,
@@ -83,6 +85,7 @@ impl Model {
             groups: Vec::new(),
             facts,
             variable_of: task.facts.iter().map(|fact| fact.variable).collect(),
+            many: task.facts.iter().map(|f| task.variables[f.variable as usize].size > 2).collect(),
             free: vec![false; facts],
         };
         for variable in &task.variables[task.primary_variables..] {
@@ -148,6 +151,29 @@ impl Model {
     pub fn excludes(&self, a: Lit, b: Lit) -> bool {
         let variable = |lit: Lit| self.variable_of.get(lit.index());
         a != b && variable(a).is_some() && variable(a) == variable(b)
+    }
+
+    /// The fact that the literal is about.
+    pub fn fact_of(&self, lit: Lit) -> u32 {
+        if lit.index() < 2 * self.facts { lit.0 % self.facts as u32 } else { lit.0 }
+    }
+
+    /// The value that does not hold where this literal does, of a variable with several.
+    pub fn denied(&self, lit: Lit) -> Option<Lit> {
+        let negated = self.facts..2 * self.facts;
+        negated.contains(&lit.index()).then(|| Lit(lit.0 - self.facts as u32))
+    }
+
+    /// Whether the literal is a value of a variable with more than two.
+    pub fn is_one_of_many(&self, lit: Lit) -> bool {
+        self.many.get(lit.index()).is_some_and(|&many| many)
+    }
+
+    /// Whether one of these may take the other's place as far as their variables go: a variable with more than two
+    /// values has one at a time.
+    pub fn alike(&self, lit: Lit, twin: Lit) -> bool {
+        let variable = |lit: Lit| self.variable_of.get(self.fact_of(lit) as usize);
+        !self.is_one_of_many(twin) || variable(lit) == variable(twin)
     }
 
     /// Whether the literal holds in a state.
