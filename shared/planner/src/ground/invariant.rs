@@ -73,6 +73,9 @@ fn proved(atoms: &Atoms<'_>, single: bool, limits: &GroundLimits<'_>) -> Result<
             break;
         }
         let instances = Instances { single, ..atoms.instances(&candidate) };
+        if single && !instances.weight.contains(&1) {
+            continue;
+        }
         // One operator of each action shows most candidates wrong at once.
         let sampled = samples.iter().map(|&at| &ground.operators[at as usize]);
         let wrong = sampled.chain(&ground.operators).find(|operator| !instances.balanced(ground, operator));
