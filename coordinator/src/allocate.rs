@@ -18,7 +18,7 @@ use crate::bound::JointTask;
 use crate::combine::world_state;
 use crate::parts::{condition_from, independent_parts};
 use crate::problem::member_problem;
-use crate::reason::{Obstacles, why_infeasible};
+use crate::reason::{Obstacles, why_infeasible, with_causes};
 use crate::split::{segments, team_plan};
 use crate::understand::Subgoal;
 
@@ -355,9 +355,9 @@ impl Allocator<'_> {
                 Err(NoAllocation::GaveUp(text))
             }
             Ok(Outcome::Unsolvable(reason)) => {
-                let why =
-                    why_infeasible(Obstacles { team, available }, &state.facts, goal, &limits, self.cancel);
-                let why = why.unwrap_or_else(|| reason.to_string());
+                let obstacles = Obstacles { team, available };
+                let why = why_infeasible(obstacles, &state.facts, goal, &limits, self.cancel)
+                    .unwrap_or_else(|| with_causes(obstacles, &state.facts, goal, &reason));
                 let text = &self.input.subgoals[index].text;
                 let text = format!("nobody of the team can do \"{text}\": {why}");
                 // From a state that other plans led to, it is no proof.

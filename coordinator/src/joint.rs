@@ -17,7 +17,7 @@ use lamma_protocol::StepIndex;
 use crate::allocation::{Allocation, NoAllocation, PackageSpec};
 use crate::bound::JointTask;
 use crate::combine::{PackageEnd, TeamPlan, team_plan};
-use crate::reason::{Obstacles, why_infeasible};
+use crate::reason::{Obstacles, why_infeasible, with_causes};
 use crate::team::Team;
 
 /// Memory that a search may use: what a small host has left beside the team.
@@ -128,7 +128,7 @@ fn search(
             let limits = Limits { expansions: Some(REASON_EXPANSIONS), ..Limits::default() };
             let obstacles = Obstacles { team: &input.team, available: &input.available };
             let reason = why_infeasible(obstacles, &input.facts, &input.goal, &limits, cancel);
-            let reason = reason.unwrap_or_else(|| why.to_string());
+            let reason = reason.unwrap_or_else(|| with_causes(obstacles, &input.facts, &input.goal, &why));
             Err(NoAllocation::Infeasible(format!("the team cannot reach the goal: {reason}")))
         }
     }

@@ -3,12 +3,13 @@
 use std::collections::BTreeSet;
 use std::sync::atomic::AtomicBool;
 
-use lamma_pddl::Name;
 use lamma_pddl::ast::{Condition, GroundAtom};
+use lamma_pddl::{Name, parse_ground_atom};
 use lamma_planner::interpreter::Interpreter;
-use lamma_planner::{Limits, Outcome, Plan};
+use lamma_planner::{Limits, Outcome, Plan, Unsolvable, explain_unreachable};
 
 use crate::combine::world_state;
+use crate::problem::joint_problem;
 use crate::split::team_plan;
 use crate::team::{Relaxation, Team};
 
@@ -65,6 +66,27 @@ pub(crate) fn why_infeasible(
         }
     }
     Some(removed.into_iter().map(|r| r.reason).collect::<Vec<_>>().join("; "))
+}
+
+/// The planner's own reason, with the cause of each part that is out of reach where there is a single one.
+pub(crate) fn with_causes(
+    obstacles: Obstacles<'_>,
+    facts: &BTreeSet<GroundAtom>,
+    goal: &Condition,
+    why: &Unsolvable,
+) -> String {
+    let Unsolvable::Unreachable(parts) = why else { return why.to_string() };
+    let Obstacles { team, available } = obstacles;
+    let (domain, skills) = team.joint(available);
+    let problem = joint_problem(team, facts, &skills, goal);
+    let cause = |part: &String| {
+        if let Some(lasting) = part.strip_prefix("(not ").and_then(|rest| rest.strip_suffix(')')) {
+            return Some(format!("; {lasting} holds and nothing that the team can do undoes it"));
+        }
+        let atom = parse_ground_atom(part).ok()?;
+        explain_unreachable(&domain, &problem, &atom).map(|cause| format!("; {cause}"))
+    };
+    format!("{why}{}", parts.iter().filter_map(cause).collect::<String>())
 }
 
 /// The team without these obstacles, and the facts that are then so.

@@ -42,7 +42,6 @@ fn reason(task: &tasks::Task) -> Result<String, String> {
 }
 
 #[test]
-#[ignore = "minutes: cargo test -p lamma-coordinator --test reasons -- --ignored --nocapture"]
 fn the_reason_names_what_stands_in_the_way() {
     let mut wrong = Vec::new();
     let mut kinds: BTreeMap<String, usize> = BTreeMap::new();

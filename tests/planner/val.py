@@ -3,6 +3,7 @@
 
     python3 tests/planner/val.py --val .../Validate [--lamma target/release/lamma]
         [--ipc COLLECTION] [--codmap FOLDER] [--only TEXT] [--per-domain N] [--time-limit 5] [--mutants 8] [--seed 1]
+    python3 tests/planner/val.py --val .../Validate --plans OUT/plans --codmap FOLDER [--only TEXT]
 
 VAL is github.com/KCL-Planning/VAL, built with cmake (not shipped). COLLECTION is a checkout of
 github.com/aibasel/downward-benchmarks; FOLDER holds a folder a domain with `domain.pddl` and problems beside it.
@@ -11,6 +12,9 @@ The tasks in `tests/planner/tasks` are always asked: numbers, axioms, conditiona
 Of each task the first plan is one question, and so are MUTANTS copies of it with an action dropped, doubled,
 swapped with another, or with one argument replaced by another of the plan's. A task that VAL itself cannot read,
 or to whose plan it gives no verdict, counts as outside VAL's language. Exit code 1 if there is a disagreement.
+
+With `--plans`, VAL is asked about the teams' plans that `lamma bench --codmap SET --out OUT` has written, and about
+nothing else; FOLDER is SET/classical. Exit code 1 if it refuses one.
 """
 
 import argparse
@@ -32,6 +36,7 @@ def arguments():
     parser.add_argument("--lamma", default=os.path.join(HERE, "../../target/release/lamma"))
     parser.add_argument("--ipc", help="a checkout of the competition's tasks")
     parser.add_argument("--codmap", help="a folder of domain folders")
+    parser.add_argument("--plans", help="a folder of plans, DOMAIN/PROBLEM.plan, of the --codmap tasks")
     parser.add_argument("--only", default="", help="only tasks whose path contains this")
     parser.add_argument("--per-domain", type=int, default=1, help="how many tasks of each domain")
     parser.add_argument("--time-limit", type=float, default=5.0, help="seconds for each plan")
@@ -116,8 +121,27 @@ def write(path, plan):
         file.writelines("(" + " ".join(act) + ")\n" for act in plan)
 
 
+def ask_about_plans(options):
+    valid = refused = 0
+    for plan in sorted(glob.glob(os.path.join(options.plans, "*/*.plan"))):
+        folder, name = os.path.split(plan)
+        task = os.path.join(options.codmap, os.path.basename(folder))
+        problem = os.path.join(task, os.path.splitext(name)[0] + ".pddl")
+        if options.only not in plan:
+            continue
+        accepted, said = val_accepts(options, os.path.join(task, "domain.pddl"), problem, plan)
+        valid += accepted is True
+        refused += accepted is not True
+        if accepted is not True:
+            print(f"{plan}: {' '.join(said.split())[:200]}", flush=True)
+    print(f"VAL accepts {valid} of {valid + refused} plans")
+    return 1 if refused else 0
+
+
 def main():
     options = arguments()
+    if options.plans:
+        return ask_about_plans(options)
     rng = random.Random(options.seed)
     counts = collections.Counter()
     disagreements = []

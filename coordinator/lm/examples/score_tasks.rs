@@ -2,7 +2,7 @@
 //! run: `score_tasks [FILE.jsonl]`. It prints counts by category and cause only, no sentence and no object.
 //!
 //! "Enough" is what a run needs: the suite's facts are among those read, or hold at the start. Where something is
-//! missing, it says of what kind, and what was read in its place.
+//! missing, it says of what kind, what was read in its place, and which constructions the sentence makes use of.
 
 #[path = "../tests/judge/mod.rs"]
 #[allow(dead_code, reason = "only its facts are used here")]
@@ -52,7 +52,8 @@ fn main() -> Result<(), Failure> {
             deadline: Duration::from_secs(5),
         });
         let category = task["category"].as_str().unwrap_or("?").to_owned();
-        tally(tallies.entry(category).or_default(), &answer, &goal, &objects);
+        let made_of = constructions(task["instruction"].as_str().unwrap_or_default());
+        tally(tallies.entry(category).or_default(), &answer, &goal, &objects, &made_of);
     }
     for (category, Tally { tasks, enough, exact, causes }) in tallies {
         println!("{category}: enough for {enough} of {tasks}, the same goal for {exact}");
@@ -69,14 +70,20 @@ fn team(task: &Value) -> Result<Vec<RobotView>, Failure> {
     Ok(robots.into_iter().map(view).collect())
 }
 
-fn tally(tally: &mut Tally, answer: &Answer, goal: &[GoalEntry], objects: &[ObjectView]) {
+fn tally(tally: &mut Tally, answer: &Answer, goal: &[GoalEntry], objects: &[ObjectView], made_of: &str) {
     tally.tasks += 1;
-    let mut note = |cause: String| *tally.causes.entry(cause).or_default() += 1;
+    let mut note = |cause: String| *tally.causes.entry(format!("{cause}\n      {made_of}")).or_default() += 1;
     let decomposition = match answer {
         Answer::Understood(decomposition) => decomposition,
         Answer::Clarify(asks) => {
             let about: BTreeSet<&str> = asks.not_understood.iter().map(|text| about(text)).collect();
-            return note(format!("asks: {}", about.into_iter().collect::<Vec<_>>().join(", ")));
+            let wanted = by_class(&facts(goal, objects), objects);
+            let about = about.into_iter().collect::<Vec<_>>().join(", ");
+            let read = asks.readings.iter().map(|reading| reading.subtasks.len()).max().unwrap_or(0);
+            return note(format!(
+                "asks: {about}\n      {} problems beside {read} sub-tasks; wants {wanted}",
+                asks.not_understood.len()
+            ));
         }
     };
     let read: Vec<GoalEntry> =
@@ -85,20 +92,97 @@ fn tally(tally: &mut Tally, answer: &Answer, goal: &[GoalEntry], objects: &[Obje
     let open: Vec<GoalEntry> = goal.iter().filter(|entry| !holds_now(entry, objects)).cloned().collect();
     let missing: Vec<String> = facts(&open, objects).into_iter().filter(|f| !got.contains(f)).collect();
     let wanted = facts(goal, objects);
-    let more = got.iter().filter(|fact| !wanted.contains(fact)).count();
+    let more: Vec<String> = got.iter().filter(|fact| !wanted.contains(fact)).cloned().collect();
     if missing.is_empty() {
         tally.enough += 1;
-        tally.exact += usize::from(more == 0);
+        tally.exact += usize::from(more.is_empty());
         return;
     }
     let causes: BTreeSet<String> = missing.iter().map(|fact| cause(fact, &got)).collect();
     let causes: Vec<String> = causes.into_iter().collect();
-    note(format!("lacks {} of {}: {}", missing.len(), wanted.len(), causes.join(", ")));
+    note(format!(
+        "lacks {} of {}: {}\n      in {} sub-tasks; lacks {}; too much {}",
+        missing.len(),
+        wanted.len(),
+        causes.join(", "),
+        decomposition.subtasks.len(),
+        by_class(&missing, objects),
+        by_class(&more, objects)
+    ));
+}
+
+/// Facts by predicate and by what sort of things they are of, counted.
+fn by_class(facts: &[String], objects: &[ObjectView]) -> String {
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    for fact in facts {
+        let fact = fact.split(" #").next().unwrap_or_default();
+        let told = match (fact.split_once('@'), fact.split_once(':')) {
+            (Some((thing, place)), _) => format!("{} in {}", sort(thing, objects), sort(place, objects)),
+            (_, Some((thing, state))) => format!("{} {state}", sort(thing, objects)),
+            _ => "?".to_owned(),
+        };
+        *counts.entry(told).or_default() += 1;
+    }
+    let told: Vec<String> = counts.into_iter().map(|(told, times)| format!("{times} {told}")).collect();
+    if told.is_empty() { "nothing".to_owned() } else { told.join(", ") }
+}
+
+/// What sort of thing a type is, by what it affords.
+fn sort(kind: &str, objects: &[ObjectView]) -> &'static str {
+    let plain = |kind: &str| kind.replace("SinkBasin", "Sink").replace("BathtubBasin", "Bathtub");
+    let affords = |affordance: &str| {
+        let of_kind = |object: &&ObjectView| plain(&object.kind) == kind;
+        objects.iter().filter(of_kind).any(|object| object.affordances.iter().any(|a| a == affordance))
+    };
+    let fixed = !affords("pickupable");
+    match () {
+        () if affords("sliceable") => "food",
+        () if !fixed && affords("receptacle") => "vessel",
+        () if !fixed => "item",
+        () if affords("isColdSource") || affords("isHeatSource") => "appliance",
+        () if affords("toggleable") => "switch",
+        () if affords("openable") => "cupboard",
+        () if affords("receptacle") => "surface",
+        () => "fixture",
+    }
+}
+
+/// Which constructions a sentence makes use of, and how long it is; none of its own words.
+fn constructions(sentence: &str) -> String {
+    const KINDS: [(&str, &[&str]); 12] = [
+        ("condition", &["if", "unless", "case"]),
+        ("meanwhile", &["while", "meanwhile", "meantime", "as"]),
+        ("order", &["then", "before", "after", "once", "when", "next", "finally", "until"]),
+        ("quantifier", &["all", "every", "each", "both", "any", "everything", "whole"]),
+        ("number", &["two", "three", "four", "2", "3", "4"]),
+        ("exception", &["except", "but", "apart", "other", "rest"]),
+        ("negation", &["not", "dont", "without", "never", "no"]),
+        ("pronoun", &["it", "them", "they", "one", "ones", "these", "those", "there"]),
+        ("relative", &["which", "that", "who", "whatever"]),
+        ("wish", &["should", "must", "need", "needs", "want", "would", "like", "be"]),
+        ("person", &["i", "we", "my", "our", "somebody", "someone"]),
+        ("robot", &["robot", "robots", "together"]),
+    ];
+    let plain = sentence.to_lowercase().replace('\'', "");
+    let words: Vec<&str> = plain.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect();
+    let used = KINDS.iter().filter(|(_, of)| words.iter().any(|word| of.contains(word)));
+    let kinds: Vec<&str> = used.map(|(kind, _)| *kind).collect();
+    let commas = sentence.matches([',', ';']).count();
+    let stops = sentence.matches(['.', '!', '?', ':']).count();
+    format!("{} words, {commas} commas, {stops} stops: {}", words.len(), kinds.join(" "))
 }
 
 /// What kind of thing a question is about.
 fn about(text: &str) -> &'static str {
-    const ABOUT: [(&str, &str); 7] = [
+    const ABOUT: [(&str, &str); 15] = [
+        ("is not said what the slices", "slices of nothing"),
+        ("is not said what the water", "water in nothing"),
+        ("is not said what to do about", "a state told, not asked for"),
+        ("what \"it\" is", "a singular pronoun of nothing"),
+        ("what \"them\" is", "a plural pronoun of nothing"),
+        ("is not openable", "what does not open is to"),
+        ("is not toggleable", "what has no switch is switched"),
+        ("is not ", "what cannot change so"),
         ("I do not know what \"", "a noun or verb unknown"),
         ("I do not know what to do", "no order found"),
         ("there is no ", "something absent"),

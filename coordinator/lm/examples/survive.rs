@@ -69,9 +69,12 @@ fn main() -> Result<(), Failure> {
     }
     times.sort();
     println!("{} of {count} inputs survived (seed {seed})", count - broken);
-    let (Some(median), Some(worst)) = (times.get(times.len() / 2), times.last()) else { return Ok(()) };
+    let p99 = times.get(times.len() * 99 / 100);
+    let (Some(p50), Some(p99), Some(worst)) = (times.get(times.len() / 2), p99, times.last()) else {
+        return Ok(());
+    };
     println!(
-        "median {median:?}, worst {worst:?}, mean {:?}",
+        "p50 {p50:?}, p99 {p99:?}, worst {worst:?}, mean {:?}",
         times.iter().sum::<Duration>() / count.max(1) as u32
     );
     if broken > 0 { Err("some inputs were not survived".into()) } else { Ok(()) }

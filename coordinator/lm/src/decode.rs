@@ -3,10 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use lamma_domains::goal::{Content, GoalEntry, PropertyValue};
+use lamma_domains::robots::SKILLS;
 use serde::Deserialize;
 
 use crate::offline::damerau_levenshtein;
-use crate::{Answer, Clarification, Decomposition, Request, Subtask};
+use crate::{Answer, Ban, Clarification, Decomposition, Request, Subtask};
 
 /// Longer answers are not read, in bytes.
 pub const LONGEST: usize = 64 * 1024;
@@ -14,6 +15,8 @@ pub const LONGEST: usize = 64 * 1024;
 pub const MOST_SUBTASKS: usize = 64;
 /// More "after" entries, over all sub-tasks, are refused.
 pub const MOST_EDGES: usize = 256;
+/// More bans are refused.
+pub const MOST_BANS: usize = 64;
 /// Contents within contents go no deeper.
 const DEEPEST: usize = 4;
 
@@ -39,6 +42,8 @@ struct Wire {
     #[serde(default)]
     assumptions: Vec<String>,
     #[serde(default)]
+    bans: Vec<Ban>,
+    #[serde(default)]
     confidence: Option<f64>,
     #[serde(default)]
     question: Option<String>,
@@ -58,13 +63,14 @@ pub fn decode(text: &str, request: &Request) -> Result<Answer, Vec<String>> {
     }
     let mut checker = Checker::new(request);
     checker.subtasks(&wire.subtasks);
+    checker.bans(&wire.bans);
     let confidence = wire.confidence.unwrap_or(1.0);
     if !(0.0..=1.0).contains(&confidence) {
         checker.errors.push(format!("confidence: {confidence} is not between 0 and 1"));
     }
     if checker.errors.is_empty() {
-        let Wire { subtasks, assumptions, .. } = wire;
-        Ok(Answer::Understood(Decomposition { subtasks, assumptions, confidence, bans: Vec::new() }))
+        let Wire { subtasks, assumptions, bans, .. } = wire;
+        Ok(Answer::Understood(Decomposition { subtasks, assumptions, confidence, bans }))
     } else {
         Err(checker.errors)
     }
@@ -142,6 +148,24 @@ impl<'r> Checker<'r> {
         }
         if let Some(id) = on_a_cycle(subtasks) {
             self.errors.push(format!("after: {id:?} would have to come before itself"));
+        }
+    }
+
+    fn bans(&mut self, bans: &[Ban]) {
+        if bans.len() > MOST_BANS {
+            self.errors.push(format!("bans: {} of them; at most {MOST_BANS}", bans.len()));
+            return;
+        }
+        let skills: BTreeSet<&str> = SKILLS.into_iter().collect();
+        for (i, ban) in bans.iter().enumerate() {
+            let place = format!("bans[{i}]");
+            if !skills.contains(ban.skill.as_str()) {
+                let hint = nearest(&ban.skill, &skills);
+                self.errors.push(format!("{place}: {:?} is no skill{hint}", ban.skill));
+            }
+            for object in std::iter::once(&ban.object).chain(&ban.item) {
+                self.object(&place, object);
+            }
         }
     }
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use lamma_domains::robots::SKILLS;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -10,7 +11,7 @@ use crate::Request;
 use crate::decode::PROPERTIES;
 
 /// Goes into the cassette's key: another wording is another question.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 const SYSTEM: &str = "\
 You turn a household instruction into sub-tasks for a team of robots. Say what shall be TRUE, not what to do.
@@ -23,6 +24,8 @@ ENTRY is about one object: {\"object\":\"Fridge\",\"contains\":[\"Apple\",{\"obj
 - \"is\" uses only the properties listed below. \"all\": true means every object of the type.
 - A type named twice in \"contains\" means two different objects. Entries with the same \"same\" are about one object.
 - \"after\" names the sub-tasks that must be done before; leave it empty for what may be done in parallel.
+- \"bans\":[{\"skill\":\"OpenObject\",\"object\":\"Fridge\"}] says what nobody may do on the way, because the \
+instruction forbids it; for PutObject \"item\" may name what must not be put there. Leave it out otherwise.
 - \"lasting\": false for a sub-task that a later one undoes.
 - Put into the last goal of an object also the states it must have then (a washed fork in a bowl: isDirty false).
 - Never mention an object the instruction neither names nor implies.
@@ -150,9 +153,20 @@ pub fn schema() -> Value {
         "properties": {
             "subtasks": {"type": "array", "items": subtask},
             "assumptions": {"type": "array", "items": {"type": "string"}},
+            "bans": {"type": "array", "items": ban()},
             "confidence": {"type": "number"},
             "question": {"type": "string"}
         }
+    })
+}
+
+fn ban() -> Value {
+    let text = json!({"type": "string"});
+    json!({
+        "type": "object",
+        "additionalProperties": false,
+        "required": ["skill", "object"],
+        "properties": {"skill": {"type": "string", "enum": SKILLS}, "object": text, "item": text}
     })
 }
 

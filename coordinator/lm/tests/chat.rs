@@ -289,6 +289,29 @@ fn nonsense_and_floods_are_refused_by_name() {
 }
 
 #[test]
+fn what_nobody_may_do_is_taken_if_it_can_be_done() {
+    let forbidding = |skill: &str, object: &str| {
+        let bans = format!("\"bans\":[{{\"skill\":\"{skill}\",\"object\":\"{object}\"}}],\"subtasks\"");
+        GOOD.replacen("\"subtasks\"", &bans, 1)
+    };
+    let good = forbidding("SliceObject", "Apple");
+    let server = Server::start(Box::new(move |_, _| says(&good)));
+    match ask(&mut server.model(0)) {
+        Ok(Answer::Understood(decomposition)) => {
+            let bans: Vec<_> = decomposition.bans.iter().map(|ban| (&*ban.skill, &*ban.object)).collect();
+            assert_eq!(bans, [("SliceObject", "Apple")]);
+        }
+        other => panic!("not understood: {other:?}"),
+    }
+    for (skill, object, what) in [("SlisceObject", "Apple", "SliceObject"), ("SliceObject", "Sink", "Sink")] {
+        let bad = forbidding(skill, object);
+        let server = Server::start(Box::new(move |_, _| says(&bad)));
+        let error = ask(&mut server.model(0)).expect_err("it cannot be done").to_string();
+        assert!(error.contains("bans[0]") && error.contains(what), "{error}");
+    }
+}
+
+#[test]
 fn a_huge_body_is_not_read() {
     let server = Server::start(Box::new(|_, _| Act::Answer(200, Vec::new(), vec![b'x'; 3 << 20])));
     assert!(matches!(ask(&mut server.model(0)), Err(LmError::Endpoint(_))));

@@ -24,8 +24,9 @@ pub struct Cli {
     pub verbose: u8,
 }
 
-/// The commands.
+/// The commands. Only the flags of the one asked for are built: a short `lamma plan` is mostly its start.
 #[derive(Debug, Subcommand)]
+#[command(defer = true)]
 pub enum Command {
     /// Carry out an instruction with a team of robot processes.
     Run(RunArgs),
@@ -77,6 +78,20 @@ pub enum Command {
     /// A process of `lamma scale`.
     #[command(hide = true)]
     Rally(RallyArgs),
+}
+
+impl Command {
+    /// Whether the command has anything to log. Those that have not start faster without a logger.
+    pub fn logs(&self) -> bool {
+        !matches!(
+            self,
+            Command::Plan(_)
+                | Command::Validate(_)
+                | Command::Explain { .. }
+                | Command::List { .. }
+                | Command::Completions { .. }
+        )
+    }
 }
 
 /// See [`Command::List`].

@@ -49,7 +49,9 @@ fn main() -> ExitCode {
             return ExitCode::from(code);
         }
     };
-    log_to_stderr(cli.verbose);
+    if cli.command.logs() {
+        log_to_stderr(cli.verbose);
+    }
     let format = format_of(&cli.command);
     ExitCode::from(dispatch(cli.command).unwrap_or_else(|failure| report(&failure, format)))
 }

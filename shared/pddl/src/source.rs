@@ -32,8 +32,12 @@ impl Source {
     /// The file at `path`. Of a file above the size limit just enough is read to report that.
     pub fn read(path: impl AsRef<Path>) -> io::Result<Self> {
         let path = path.as_ref();
-        let mut bytes = Vec::new();
-        File::open(path)?.take(MAX_SOURCE_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+        let file = File::open(path)?;
+        let most = MAX_SOURCE_BYTES as u64 + 1;
+        // One byte more than the file has, so that its end is seen without growing. A pipe says zero.
+        let expected = file.metadata().map_or(0, |metadata| metadata.len().min(most) + 1);
+        let mut bytes = Vec::with_capacity(expected as usize);
+        file.take(most).read_to_end(&mut bytes)?;
         Ok(Source::from_bytes(path.to_string_lossy(), &bytes))
     }
 

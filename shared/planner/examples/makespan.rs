@@ -17,6 +17,9 @@ use lamma_planner::{
     search::spread, solve,
 };
 
+/// How long to look for a first plan.
+const WALK: Duration = Duration::from_secs(30);
+
 fn main() -> Result<(), String> {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let work = |at: usize| args.get(at).and_then(|s| s.parse::<u64>().ok()).unwrap_or(20) * 1_000_000;
@@ -99,7 +102,7 @@ fn one(domain: &Path, problem: &Path, work: u64) -> Result<Row, String> {
     let scheduler = Scheduler::new(&task, &agent_of).ok_or("the goal is out of reach")?;
     let floor = scheduler.work(64).max(scheduler.depth());
     let cancel = AtomicBool::new(false);
-    let limits = Limits { time: Some(Duration::from_secs_f64(30.0)), ..Limits::default() };
+    let limits = Limits { time: Some(WALK), ..Limits::default() };
     let plan = match solve(&task, &SearchOptions::default(), &limits, &cancel) {
         Outcome::Found(plan) => task.trace(&plan),
         Outcome::GaveUp(_) | Outcome::Unsolvable(_) => None,
@@ -113,7 +116,7 @@ fn one(domain: &Path, problem: &Path, work: u64) -> Result<Row, String> {
     let never = AtomicBool::new(false);
     let proof = match (&plan, first) {
         (Some(plan), Some(first)) => scheduler.improve(plan, first, floor, &limits, &never),
-        _ => scheduler.shortest(floor, None, &limits, &never),
+        _ => scheduler.shortest(floor, None, &MakespanLimits { conflicts: 20_000, ..limits }, &never),
     };
     let shorter = proof.schedule.map(|s| s.makespan());
     Ok(Row {

@@ -2,7 +2,7 @@
 //!
 //! Every problem is planned ROUNDS times (default 200), reading, checking, grounding, searching and validating
 //! anew each time, as a robot does with each package. Printed are the median and the 99th percentile of each stage,
-//! over all rounds but the first, which warms the process, and over all problems.
+//! over all rounds but the first, which warms the process, and over all problems; and how many steps the plans have.
 
 use std::error::Error;
 use std::sync::atomic::AtomicBool;
@@ -33,16 +33,19 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err(report.render().into());
     }
     let mut micros: [Vec<f64>; STAGES.len()] = Default::default();
+    let mut steps = 0;
     for problem in problems {
         let text = Source::read(problem)?;
         for round in 0..=rounds {
-            let stages = once(&domain, &text).map_err(|error| format!("{problem}: {error}"))?;
+            let (stages, length) = once(&domain, &text).map_err(|error| format!("{problem}: {error}"))?;
             if round > 0 {
                 micros.iter_mut().zip(stages).for_each(|(all, one)| all.push(one));
+            } else {
+                steps += length;
             }
         }
     }
-    println!("{} problems, {rounds} rounds each; microseconds", problems.len());
+    println!("{} problems, {rounds} rounds each, {steps} steps in all their plans; microseconds", problems.len());
     println!("{:10} {:>9} {:>9} {:>9}", "stage", "p50", "p99", "most");
     for (stage, micros) in STAGES.iter().zip(&mut micros) {
         micros.sort_by(f64::total_cmp);
@@ -53,8 +56,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The microseconds of every stage.
-fn once(domain: &Domain, source: &Source) -> Result<[f64; STAGES.len()], String> {
+/// The microseconds of every stage, and the length of the plan.
+fn once(domain: &Domain, source: &Source) -> Result<([f64; STAGES.len()], usize), String> {
     let mut laps = [0.0; STAGES.len()];
     let start = Instant::now();
     let mut last = start;
@@ -82,5 +85,5 @@ fn once(domain: &Domain, source: &Source) -> Result<[f64; STAGES.len()], String>
     }
     lap(3);
     laps[4] = start.elapsed().as_secs_f64() * 1e6;
-    Ok(laps)
+    Ok((laps, plan.acts.len()))
 }

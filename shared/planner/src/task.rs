@@ -171,6 +171,8 @@ pub struct Task {
     pub(crate) derived_masks: Vec<(usize, u64)>,
     /// The number of variables that axioms do not define.
     pub(crate) primary_variables: usize,
+    /// Sets of facts of which at most one ever holds, of whatever variables.
+    pub(crate) exclusive: Csr<FactId>,
     /// The initial state.
     pub init: Vec<u64>,
     /// The goal: facts that must hold together.

@@ -108,8 +108,9 @@ impl Tally {
         let all: usize = self.by_type.values().map(|(_, all)| all).sum();
         println!("{part}: {exact}/{all} exact = {:.4}", exact as f64 / all.max(1) as f64);
         self.times.sort();
-        if let (Some(median), Some(worst)) = (self.times.get(all / 2), self.times.last()) {
-            println!("median {median:?}, worst {worst:?}");
+        let times = (self.times.get(all / 2), self.times.get(all * 99 / 100), self.times.last());
+        if let (Some(median), Some(most), Some(worst)) = times {
+            println!("a sentence takes: p50 {median:?}, p99 {most:?}, worst {worst:?}");
         }
         for (kind, (good, all)) in &self.by_type {
             println!("  {kind:42} {good:5}/{all:5} = {:.3}", *good as f64 / *all as f64);

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::inflect::VerbForm;
-use super::lexicon::{Act, LONGEST, Lexicon, Settings};
+use super::lexicon::{Act, LONGEST, Lexicon, Noun, Settings};
 use super::phrase::NounAt;
 use super::scene::Scene;
 use super::syntax::{Clause, Head, Link, Phrase, Relation, is_determiner, is_function_word, preposition};
@@ -25,9 +25,13 @@ pub struct Parser<'a> {
     /// What was chosen where the words left a choice.
     pub choices: Vec<String>,
     /// The place named last: "on one table … on another".
-    pub(super) last_place: Option<Phrase>,
+    pub(super) last_place: Option<Rc<Phrase>>,
+    /// What was counted last: "two mugs … one … the other".
+    pub(super) counted: Option<Rc<Noun>>,
     /// Whether the verb at hand still needs a place to put something.
     pub(super) wants_place: bool,
+    /// Whether the verb at hand switches things on or off.
+    pub(super) switches: bool,
     /// Whether the clause at hand is negated: then "or" forbids both.
     pub(super) negated: bool,
 }
@@ -44,7 +48,9 @@ impl<'a> Parser<'a> {
             passed_over: Vec::new(),
             choices: Vec::new(),
             last_place: None,
+            counted: None,
             wants_place: false,
+            switches: true,
             negated: false,
         }
     }
@@ -152,6 +158,7 @@ impl<'a> Parser<'a> {
             && self.longest_noun().is_none()
             && !is_function_word(word)
             && self.lexicon.adjective(&[word]).is_none()
+            && self.word_at(1) != Some("of")
         {
             // An unknown verb, as far as its place tells.
             clause.verb_text = word.to_owned();
@@ -166,8 +173,12 @@ impl<'a> Parser<'a> {
         }
         self.wants_place = clause.verbs.iter().any(|verb| verb.act == Act::Place);
         self.negated = clause.negated;
+        let first = clause.verb_text.split(' ').next().unwrap_or_default();
+        self.switches = clause.verbs.is_empty()
+            || clause.verbs.iter().any(|verb| verb.act == Act::Keep)
+            || self.lexicon.verbs(first).iter().any(|(_, _, v)| v.wants.as_deref() == Some("toggleable"));
         self.arguments(&mut clause, start);
-        self.wants_place = false;
+        (self.wants_place, self.switches) = (false, true);
         if let Some((_, word)) = doing {
             clause.objects.retain(|phrase| phrase.head != Head::Unknown(word.clone()));
         }
@@ -193,28 +204,41 @@ impl<'a> Parser<'a> {
         if let Some(previous) = previous.filter(|_| clause.verbs.is_empty() && clause.unknown.is_empty()) {
             clause.go_on(previous);
         }
-        self.understood_verb(&mut clause);
+        let of_a_subject = previous.is_some_and(|previous| {
+            (previous.verbs.is_empty() || previous.verbs.iter().any(|verb| verb.act == Act::Keep))
+                && !previous.objects.is_empty()
+                && previous.objects.iter().all(|phrase| self.is_movable(phrase))
+        });
+        let goes = clause.objects.is_empty() && is_going(&clause.verb_text) && goes_somewhere(&clause);
+        if goes && of_a_subject && opening.link == Link::And && !opening.sentence {
+            clause.verbs = self.putting();
+        }
+        self.understood_verb(&mut clause, start);
         clause.text = self.text_between(start, self.position);
         (!clause.text.is_empty()).then_some(clause)
     }
 
     /// "apple in the fridge", "the fork goes in the drawer": to be put there.
-    fn understood_verb(&self, clause: &mut Clause<'a>) {
+    fn understood_verb(&self, clause: &mut Clause<'a>, start: usize) {
         let goes = |word: &String| is_going(word);
-        let told = self.words.iter().any(|word| ["is", "are", "was", "were"].contains(&word.as_str()));
-        let moved = clause.objects.iter().all(|phrase| self.is_movable(phrase)) && !clause.objects.is_empty();
+        let said = self.words.get(start..self.position).unwrap_or_default();
+        let told = said.iter().any(|word| ["is", "are", "was", "were"].contains(&word.as_str()));
+        let going = !clause.unknown.is_empty();
+        let pronoun = |phrase: &Phrase| going && matches!(phrase.head, Head::Pronoun { .. });
+        let moved = clause.objects.iter().all(|phrase| self.is_movable(phrase) || pronoun(phrase))
+            && !clause.objects.is_empty();
+        let with = start.checked_sub(1).is_some_and(|at| self.words[at] == "with");
+        let beside = (going || with) && clause.places.iter().any(|place| place.relation == Relation::Near);
         if clause.verbs.is_empty()
             && clause.unknown.iter().all(goes)
             && !told
+            && !said
+                .iter()
+                .any(|word| ["not", "doesnt", "shouldnt", "mustnt", "dont"].contains(&word.as_str()))
             && moved
-            && goes_somewhere(clause)
+            && (goes_somewhere(clause) || beside)
         {
-            let put = self
-                .lexicon
-                .verbs("put")
-                .into_iter()
-                .filter(|(_, p, verb)| p.is_empty() && verb.act == Act::Place);
-            clause.verbs = put.map(|(_, _, verb)| verb).collect();
+            clause.verbs = self.putting();
             clause.unknown.clear();
         }
     }
@@ -222,6 +246,9 @@ impl<'a> Parser<'a> {
     /// Objects, places, particles and complements, up to the next clause.
     fn arguments(&mut self, clause: &mut Clause<'a>, start: usize) {
         while let Some(word) = self.peek() {
+            if self.purpose(clause) {
+                continue;
+            }
             if self.is_boundary(clause, start) {
                 return;
             }
@@ -236,6 +263,13 @@ impl<'a> Parser<'a> {
                 || self.complement(clause)
                 || self.place(clause)
             {
+                continue;
+            }
+            // "the fork and the spoon both in the drawer"
+            let floating = ["both", "all", "each"].contains(&word) && !clause.objects.is_empty();
+            if floating && self.word_at(1).is_some_and(|next| preposition(&[next]).is_some() && next != "of")
+            {
+                self.position += 1;
                 continue;
             }
             if matches!(word, "," | "and" | "or") {
@@ -281,6 +315,8 @@ impl<'a> Parser<'a> {
             "do" if next == "not" => self.position > start,
             "never" | "if" => self.position > start,
             "." => true,
+            "," | "and" if self.is_complete(clause) && self.new_subject_follows() => true,
+            "," | "and" if !self.switches && self.ahead_after_things().switched_follows() => true,
             "," | "and" => {
                 let mut ahead = self.ahead(1);
                 if ahead.peek() == Some("and") || ahead.peek() == Some(",") {
@@ -309,6 +345,14 @@ impl<'a> Parser<'a> {
         }
     }
 
+    /// Whether a clause says what is done to what, or where something goes.
+    fn is_complete(&self, clause: &Clause<'a>) -> bool {
+        let does = clause.verbs.iter().any(|verb| verb.act != Act::Keep);
+        let put = places(clause) && !clause.places.is_empty();
+        put || !clause.objects.is_empty()
+            && (does || !clause.places.is_empty() || !clause.complement.is_empty())
+    }
+
     /// "… to be put in the sink": what was spoken of is to be put there.
     fn passive_follows(&self) -> bool {
         self.word_at(1) == Some("be")
@@ -322,7 +366,7 @@ impl<'a> Parser<'a> {
     fn verb_reads_as_clause(&self) -> bool {
         let Some((form, verbs, length)) = self.verbs_here() else { return false };
         form != VerbForm::Past
-            && self.peek() != Some("should")
+            && !self.peek().is_some_and(|word| ["should", "has", "needs", "gets"].contains(&word))
             && !verbs.iter().all(|verb| verb.act == Act::Go)
             && self.longest_noun().is_none()
             && preposition(&self.rest()).is_none()
@@ -352,7 +396,9 @@ impl<'a> Parser<'a> {
             passed_over: Vec::new(),
             choices: Vec::new(),
             last_place: self.last_place.clone(),
+            counted: self.counted.clone(),
             wants_place: self.wants_place,
+            switches: self.switches,
             negated: self.negated,
         }
     }
@@ -370,18 +416,32 @@ impl<'a> Parser<'a> {
         if ahead.phrases(0).is_empty() {
             return false;
         }
+        // "I want the bread sliced, the egg in the fridge": the wish goes on, whatever is wished for.
+        let wished = clause.verbs.iter().all(|verb| verb.act == Act::Keep);
         ahead.position += usize::from(ahead.peek().is_some_and(is_going));
         if !clause.complement.is_empty() {
-            let rest = ahead.rest();
-            let states = |word: &&str| {
-                ["is", "are", "stays", "stay"].contains(word) || self.lexicon.adjective(&[word]).is_some()
-            };
-            return rest.first().is_some_and(states);
+            return ahead.state_told() || ahead.complements_follow() || wished && ahead.goal_follows();
+        }
+        if wished && (ahead.state_told() || ahead.complements_follow()) {
+            return true;
         }
         preposition(&ahead.rest())
             .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To | Relation::Near))
             || ahead.peek().is_some_and(|word| ["should", "must", "needs", "need"].contains(&word))
             || ahead.complements_follow()
+    }
+
+    /// Whether a state is told here: "is clean", "sliced".
+    pub(super) fn state_told(&self) -> bool {
+        self.peek().is_some_and(|word| {
+            ["is", "are", "stays", "stay"].contains(&word)
+                || preposition(&[word]).is_none() && self.lexicon.adjective(&[word]).is_some()
+        })
+    }
+
+    /// Whether it is said here where something goes.
+    fn goal_follows(&self) -> bool {
+        preposition(&self.rest()).is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
     }
 
     /// Where the parser stands behind the things that come next.
@@ -393,7 +453,9 @@ impl<'a> Parser<'a> {
     }
 
     fn complements_follow(&self) -> bool {
-        self.peek().is_some_and(|word| ["off", "on"].contains(&word))
+        let ends =
+            self.word_at(1).is_none_or(|next| [".", ",", "and", "then", "when", "once"].contains(&next));
+        self.peek().is_some_and(|word| ["off", "on"].contains(&word) || word == "out" && ends)
     }
 }
 
@@ -402,9 +464,13 @@ fn goes_somewhere(clause: &Clause<'_>) -> bool {
     clause.places.iter().any(|place| matches!(place.relation, Relation::In | Relation::To))
 }
 
-/// "the fork goes in the drawer"
+/// "the fork goes in the drawer", "the bat leans on the wall": verbs of where things are to be.
 pub(super) fn is_going(word: &str) -> bool {
-    ["goes", "go", "belongs", "belong"].contains(&word)
+    const GOING: [&str; 13] = [
+        "goes", "go", "belongs", "belong", "leans", "lean", "stays", "stay", "hangs", "moves", "move",
+        "comes", "come",
+    ];
+    GOING.contains(&word)
 }
 
 /// Whether a clause's verb puts things somewhere.
@@ -415,4 +481,5 @@ fn places(clause: &Clause<'_>) -> bool {
 mod argument;
 mod choice;
 mod opening;
+mod place;
 mod verb;

@@ -4,7 +4,7 @@ use lamma_domains::goal::PropertyValue;
 
 use super::lexicon::{Act, Settings, Verb};
 use super::mention::{Discourse, Spoken};
-use super::syntax::{Clause, Head, Link, Phrase, Place, Relation};
+use super::syntax::{Clause, Head, Phrase, Place, Quantity, Relation};
 
 /// What a clause makes of an entity.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,11 +95,16 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         self.spoke = false;
         let mut spoken = Spoken::default();
         if clause.negated {
-            spoken = match self.not_to_be_left(clause) {
-                Some(kept) => self.keep(&kept),
-                None => self.forbid(clause),
+            spoken = match (self.not_to_be_left(clause), self.not_there(clause)) {
+                (Some(kept), _) => self.keep(&kept),
+                (_, Some(elsewhere)) => self.put_elsewhere(&elsewhere, next),
+                _ => self.forbid(clause),
             };
+        } else if let Some(elsewhere) = self.not_there(clause) {
+            spoken = self.put_elsewhere(&elsewhere, next);
         } else if clause.says_any(&["same", "likewise"]) && self.same_again(clause, &mut spoken) {
+        } else if let Some(mended) = left_so(clause).and_then(mended) {
+            spoken = self.complaint(clause, &mended);
         } else if let Some(verb) = self.choose(clause) {
             let liquid = !clause.objects.is_empty() && clause.objects.iter().all(|o| o.liquid().is_some());
             spoken = match verb.act {
@@ -110,11 +115,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 Act::Set if liquid && self.runs_into(clause, verb) => self.fill(clause, verb),
                 _ if is_a_trip(clause, next) => self.trip(clause),
                 Act::Place | Act::Hold | Act::Keep
-                    if liquid
-                        && clause
-                            .places
-                            .iter()
-                            .any(|place| matches!(place.relation, Relation::In | Relation::To)) =>
+                    if liquid && clause.places.iter().any(|place| self.runs_in(place)) =>
                 {
                     self.fill(clause, verb)
                 }
@@ -131,43 +132,28 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 Act::Fill | Act::Pour => self.fill(clause, verb),
                 Act::Empty => self.empty(clause),
             };
-        } else if !clause.complement.is_empty() {
-            // "the lamp should be off" asks for it; "the lamp is off" only says so.
-            if clause.wants() {
-                spoken = self.keep(clause);
-            } else if clause.link == Link::While || next.is_some_and(speaks_of_it) {
-                spoken = self.only_mention(clause);
-            } else if let Some(mended) = mended(clause) {
-                let text = format!("\"{}\" is taken as a complaint", clause.text);
-                self.discourse.assume(text, 0.8);
-                spoken = self.keep(&mended);
-            } else {
-                self.discourse.problem(format!("it is not said what to do about \"{}\"", clause.text), 0.3);
-            }
-        } else if next.is_some_and(speaks_of_it) && clause.unknown.iter().all(|word| is_need(word)) {
-            spoken = self.only_mention(clause);
-        } else if clause.unknown.is_empty() && clause.says_any(&["want", "need", "like", "love", "fancy"]) {
-            spoken = self.bring(clause);
-        } else if clause.is_remark() && (next.is_some() || index > 0) {
-            // Why something is wanted is no order.
-            self.discourse.assume(format!("took \"{}\" as a remark", clause.text), 0.9);
-            spoken = self.only_mention(clause);
-            self.spoke = next.is_some_and(speaks_of_it);
-        } else if !clause.objects.is_empty()
-            && clause.unknown.is_empty()
-            && clause.places.is_empty()
-            && next.is_some_and(|next| !next.verbs.is_empty())
-        {
-            // "The dishes: wash the plate and the cup."
-            self.discourse.assume(format!("took \"{}\" as what is spoken of", clause.text), 0.9);
-            spoken = self.only_mention(clause);
-        } else if !clause.objects.is_empty() || !clause.unknown.is_empty() {
-            self.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.25);
+        } else {
+            spoken = self.without_verb(index, clause, next);
         }
         for word in clause.unknown.iter().skip(usize::from(clause.verbs.is_empty())) {
             self.discourse.assume(format!("passed over \"{word}\""), 0.85);
         }
+        spoken.reached.extend(self.named_besides(clause));
         self.discourse.spoken.push(spoken);
+    }
+
+    /// What a clause names only to say where, with what or from where: "next to the laptop … open it".
+    fn named_besides(&mut self, clause: &Clause<'a>) -> Vec<usize> {
+        let besides = |place: &&Place| {
+            matches!(place.relation, Relation::Near | Relation::With | Relation::From)
+                && place.phrase.quantity == Quantity::One
+                && place.phrase.liquid().is_none()
+                && matches!(&place.phrase.head, Head::Noun(noun)
+                    if !noun.class && noun.kinds.iter().any(|kind| self.discourse.scene.has(kind)))
+        };
+        let phrases: Vec<Phrase> =
+            clause.places.iter().filter(besides).map(|place| place.phrase.clone()).collect();
+        phrases.iter().flat_map(|phrase| self.discourse.mention(phrase, &[], None)).collect()
     }
 
     /// "do the same with the spoon": all that was asked for of the thing spoken of last.
@@ -188,6 +174,19 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         !spoken.objects.is_empty()
     }
 
+    /// Whether a liquid can be put into a place: wine in the fridge stays in its bottle.
+    fn runs_in(&self, place: &Place) -> bool {
+        let scene = self.discourse.scene;
+        if !matches!(place.relation, Relation::In | Relation::To) {
+            return false;
+        }
+        match &place.phrase.head {
+            Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, "canFillWithLiquid")),
+            Head::Named(_) | Head::Pronoun { .. } => true,
+            _ => false,
+        }
+    }
+
     /// "tip the water out of the mug": the mug.
     fn poured_from(&self, clause: &Clause<'a>, verb: &Verb) -> Option<Phrase> {
         let scene = self.discourse.scene;
@@ -205,13 +204,8 @@ impl<'d, 'a> Interpreter<'d, 'a> {
 
     /// "run water into the mug": the mug is filled.
     fn runs_into(&self, clause: &Clause<'a>, verb: &Verb) -> bool {
-        let scene = self.discourse.scene;
         verb.set.get("isToggled") == Some(&super::yes())
-            && clause.places.iter().any(|place| {
-                matches!(place.relation, Relation::In | Relation::To)
-                    && matches!(&place.phrase.head, Head::Noun(noun)
-                        if noun.kinds.iter().any(|kind| scene.affords(kind, "canFillWithLiquid")))
-            })
+            && clause.places.iter().any(|place| self.runs_in(place))
     }
 
     /// "take the mug to the sink and wash it": the sink is where it is washed, not where it stays.
@@ -219,31 +213,6 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         let spoken = self.only_mention(&Clause { places: Vec::new(), ..clause.clone() });
         let reached = self.receptacles_spoken_of(&Clause { objects: Vec::new(), ..clause.clone() });
         Spoken { reached, ..spoken }
-    }
-
-    /// "the pan is dirty, wash it": only says what is spoken of.
-    fn only_mention(&mut self, clause: &Clause<'a>) -> Spoken {
-        let mut objects = Vec::new();
-        let scene = self.discourse.scene;
-        let is_here = |phrase: &&Phrase| match &phrase.head {
-            Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.has(kind)),
-            Head::Named(_) => true,
-            _ => false,
-        };
-        for phrase in clause.objects.iter().filter(is_here) {
-            objects.extend(self.discourse.mention(phrase, &clause.places, None));
-        }
-        self.spoke = true;
-        Spoken { objects, ..Spoken::default() }
-    }
-
-    /// "I need a fork", "I want a cold apple": to be brought, or to be so.
-    fn bring(&mut self, clause: &Clause<'a>) -> Spoken {
-        let objects = self.objects(clause, &clause.places, Some("pickupable"));
-        if objects.iter().all(|&entity| self.discourse.entities[entity].asked.is_empty()) {
-            self.take(&objects);
-        }
-        Spoken { objects, ..Spoken::default() }
     }
 
     /// The first reading of the verb whose object can be had.
@@ -335,6 +304,8 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 .rev()
                 .find(|s| !s.objects.is_empty())
                 .is_some_and(|s| s.objects.len() > 1);
+            // "open and switch it on": one thing of them.
+            let many = many && !wants.is_some_and(|wants| ["openable", "toggleable"].contains(&wants));
             let pronoun = Phrase::bare(Head::Pronoun { plural: many }, "it");
             found = self.discourse.mention(&pronoun, at, wants);
         }
@@ -387,7 +358,8 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         let switched: Vec<usize> =
             objects.iter().map(|&entity| self.switch_of(entity, &clause.complement)).collect();
         for &entity in &switched {
-            self.add_states(entity, &clause.complement);
+            let states = self.discourse.possible_states(entity, clause.complement.clone());
+            self.add_states(entity, &states);
         }
         self.keep_on_the_way(clause, &switched);
         if !clause.complement.is_empty() && clause.objects.iter().any(|phrase| self.is_movable(phrase)) {
@@ -441,26 +413,7 @@ fn is_a_trip(clause: &Clause<'_>, next: Option<&Clause<'_>>) -> bool {
         && matches!(clause.objects.as_slice(), [_])
         && !clause.places.is_empty()
         && clause.places.iter().all(to_sink)
-        && next
-            .is_some_and(|next| !next.negated && speaks_of_it(next) && next.verbs.iter().any(|v| washes(&v)))
-}
-
-/// "the pan needs to be washed"
-fn is_need(word: &str) -> bool {
-    ["need", "needs", "has", "have", "want", "wants", "ought", "had"].contains(&word)
-}
-
-/// What a complaint asks for: what is dirty is to be clean, what was left open is to be closed.
-fn mended<'a>(clause: &Clause<'a>) -> Option<Clause<'a>> {
-    let complaint = clause.says_any(&["left", "still"]) || clause.complement.contains_key("isDirty");
-    let bad = clause.complement.values().all(|value| *value == super::yes());
-    (complaint && bad).then(|| {
-        let mut mended = clause.clone();
-        for value in mended.complement.values_mut() {
-            *value = super::opposite(value);
-        }
-        mended
-    })
+        && next.is_some_and(|next| !next.negated && speaks_of_it(next) && next.verbs.iter().any(washes))
 }
 
 /// Whether a phrase may be a lamp.
@@ -481,3 +434,7 @@ mod changing;
 mod forbid;
 mod holding;
 mod placing;
+mod telling;
+
+pub(in crate::offline) use telling::untrue_place;
+use telling::{left_so, mended};

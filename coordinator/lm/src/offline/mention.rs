@@ -114,6 +114,13 @@ impl<'a> Discourse<'a> {
         let found = match &phrase.head {
             Head::Noun(noun) => self.noun(noun, phrase, at, wants),
             Head::Named(name) => self.named(name),
+            Head::Pronoun { .. } if phrase.other || matches!(phrase.quantity, Quantity::Count(_)) => {
+                self.some_of_them(phrase)
+            }
+            Head::Pronoun { .. } if phrase.text.ends_with("former") || phrase.text.ends_with("latter") => {
+                self.one_of_two(phrase.text.ends_with("former"))
+            }
+            Head::Pronoun { .. } if is_all_of_it(&phrase.text) => self.all_of_it(wants),
             Head::Pronoun { plural } => self.pronoun(*plural, wants),
             Head::Slices => self.slices(matches!(phrase.quantity, Quantity::Plural | Quantity::All)),
             Head::Everything => self.everything(phrase, at, wants),
@@ -238,6 +245,10 @@ impl<'a> Discourse<'a> {
                 self.assume(format!("there is no {} here; a {kind} is taken for it", noun.word), 0.8);
             }
         }
+        if kinds.is_empty() && wants == Some("openable") && self.lexicon.is_small("parts", &[&noun.word]) {
+            // "open its lid": of what was spoken of.
+            return self.pronoun(false, wants);
+        }
         if kinds.is_empty() {
             self.problem(format!("there is no {} here", noun.word), 0.2);
             return Vec::new();
@@ -260,6 +271,12 @@ impl<'a> Discourse<'a> {
             return self.class(noun, &kinds, phrase, at);
         }
         match phrase.quantity {
+            Quantity::All if phrase.other => {
+                let kind = kinds.first().cloned().unwrap_or_default();
+                let named = self.entities.iter().filter(|entity| entity.kind() == kind).count();
+                let left = self.scene.of_kind(&kind).len().saturating_sub(named);
+                self.several(&[kind], left, phrase, at)
+            }
             Quantity::One => vec![self.one(kinds, phrase, at)],
             Quantity::Count(count) => self.several(&kinds, count, phrase, at),
             Quantity::Plural => {
@@ -268,7 +285,9 @@ impl<'a> Discourse<'a> {
             }
             Quantity::All => {
                 // "the towels": of what the word may mean, that of which there are several.
-                kinds.sort_by_key(|kind| self.scene.of_kind(kind).len() < 2);
+                if wants != Some("receptacle") {
+                    kinds.sort_by_key(|kind| self.scene.of_kind(kind).len() < 2);
+                }
                 self.every(&kinds[..1.min(kinds.len())], phrase, at)
             }
         }
@@ -328,6 +347,10 @@ impl<'a> Discourse<'a> {
         let mut found = BTreeSet::new();
         for phrase in except {
             match &phrase.head {
+                Head::Noun(noun) if !noun.class => {
+                    let here = noun.kinds.iter().find(|kind| self.scene.has(kind));
+                    found.extend(here.or(noun.kinds.first()).cloned());
+                }
                 Head::Noun(noun) => found.extend(noun.kinds.iter().cloned()),
                 Head::Named(name) => {
                     found.insert(name.clone());
@@ -387,6 +410,12 @@ impl<'a> Discourse<'a> {
             _ => true,
         }
     }
+}
+
+/// "it all", "all of that": whatever was spoken of.
+fn is_all_of_it(text: &str) -> bool {
+    ["it all", "that all", "this all", "all of it", "all of that", "all of this", "all that", "all this"]
+        .contains(&text)
 }
 
 /// The states of what is full of a liquid.

@@ -191,6 +191,7 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         .map(|token| (token.typed.clone(), token.text.clone()))
         .collect();
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
+    let words = text::without_asides(words, lexicon);
     let mut reading = word_by_word(&words, lexicon, scene);
     let strong = situation::ranked(lexicon.situations(), &situation::words_of(&words), true);
     let explained = strong.first().map_or(0, |(_, explained)| *explained);
@@ -281,7 +282,7 @@ fn one_clause<'a>(
         && !says_state(clause, interpreter.discourse.scene)
         && interpreter.first_situation(index, &situation::ranked(situations, &words, true), &words)
     {
-        interpreter.discourse.spoken.push(Spoken::default());
+        interpreter.speak_of_what_came_about(index, clauses);
         return;
     }
     let before = Snapshot::take(interpreter);
@@ -298,7 +299,7 @@ fn one_clause<'a>(
         let literal = Snapshot::take(interpreter);
         before.restore(interpreter);
         if interpreter.first_situation(index, &ranked, &words) {
-            interpreter.discourse.spoken.push(Spoken::default());
+            interpreter.speak_of_what_came_about(index, clauses);
             return;
         }
         literal.restore(interpreter);
@@ -329,8 +330,11 @@ fn says_state(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
         syntax::Head::Named(_) => true,
         _ => false,
     };
-    clause.verbs.iter().any(|verb| matches!(verb.act, Act::Keep | Act::Place))
-        && !clause.complement.is_empty()
+    let full = |phrase: &syntax::Phrase| phrase.with.iter().any(|with| with.liquid().is_some());
+    clause.wants()
+        && clause.verbs.iter().any(|verb| matches!(verb.act, Act::Keep | Act::Place))
+        && (!clause.complement.is_empty()
+            || clause.says_any(&["filled", "full"]) && clause.objects.iter().any(full))
         && !clause.objects.is_empty()
         && clause.objects.iter().all(is_here)
 }
@@ -343,6 +347,7 @@ fn says_where(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
         _ => false,
     };
     let moves = clause.verbs.iter().any(|verb| matches!(verb.act, Act::Place | Act::Hold));
+    let wished = clause.verbs.iter().all(|verb| verb.act == Act::Keep);
     let goal = |place: &syntax::Place| {
         matches!(place.relation, syntax::Relation::In | syntax::Relation::To)
             && is_here(&place.phrase, "receptacle")
@@ -352,10 +357,12 @@ fn says_where(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
             && is_here(&place.phrase, "canFillWithLiquid")
     };
     let liquid = clause.objects.iter().any(|phrase| phrase.liquid().is_some());
-    moves
-        && (clause.objects.iter().any(|phrase| is_here(phrase, "pickupable"))
-            && clause.places.iter().any(goal)
-            || liquid && clause.places.iter().any(fills))
+    effect::untrue_place(clause, scene).is_some()
+        || wished && liquid && clause.places.iter().any(fills)
+        || moves
+            && (clause.objects.iter().any(|phrase| is_here(phrase, "pickupable"))
+                && clause.places.iter().any(goal)
+                || liquid && clause.places.iter().any(fills))
 }
 
 /// Whether a clause does something to a thing of the scene that it names.
@@ -365,7 +372,9 @@ fn is_concrete(clause: &Clause<'_>, lexicon: &Lexicon, scene: &Scene<'_>) -> boo
         syntax::Head::Named(_) => true,
         _ => false,
     };
-    !is_weak(clause, lexicon) && clause.objects.iter().any(is_here)
+    !is_weak(clause, lexicon)
+        && (clause.carries_it() && clause.places.iter().any(|place| is_here(&place.phrase))
+            || clause.objects.iter().any(is_here))
 }
 
 /// Whether a clause can only mean going somewhere: "turn left" can, "turn on the lamp" cannot.

@@ -1,5 +1,7 @@
 //! Noun phrases: determiners, quantities, adjectives, heads, and what follows a head.
 
+use std::rc::Rc;
+
 use super::clause::Parser;
 use super::inflect;
 use super::lexicon::{LONGEST, Lexicon, Noun};
@@ -60,6 +62,15 @@ impl Parser<'_> {
             }
         }
         self.after_head(&mut phrase, depth);
+        if let (Head::Noun(noun), Quantity::Count(_) | Quantity::Plural | Quantity::All) =
+            (&phrase.head, phrase.quantity)
+        {
+            self.counted = Some(Rc::new(noun.clone()));
+        } else if let (Head::Noun(noun), Some("one")) =
+            (&phrase.head, self.words.get(start).map(String::as_str))
+        {
+            self.counted = Some(Rc::new(noun.clone()));
+        }
         phrase.text = self.text_between(start, self.position);
         Some(phrase)
     }
@@ -75,6 +86,9 @@ impl Parser<'_> {
             if let Some(head) = self.by_use(front) {
                 return Some(head);
             }
+            if let Some(head) = self.one_of_the_counted(word, front) {
+                return Some(head);
+            }
             if let Some(head) = self.pronoun(word, front) {
                 return Some(head);
             }
@@ -87,6 +101,11 @@ impl Parser<'_> {
             }
             if let Some(number) = inflect::number(word) {
                 self.position += 1;
+                if front.quantity == Some(Quantity::All) && self.peek() == Some("of") {
+                    front.quantity = None;
+                    self.position += 1;
+                    continue;
+                }
                 front.quantity = Some(if number == 1 { Quantity::One } else { Quantity::Count(number) });
                 continue;
             }
@@ -141,7 +160,8 @@ impl Parser<'_> {
         if is_function_word(word) || ",.".contains(word) || self.lexicon.is_small("polite", &[word]) {
             return None;
         }
-        if !self.lexicon.verbs(word).is_empty() && self.position == start {
+        let going = super::clause::is_going(word);
+        if (going || !self.lexicon.verbs(word).is_empty()) && self.position == start {
             return None;
         }
         let known_modifier = self.lexicon.is_small("modifiers", &[word]);
@@ -182,6 +202,8 @@ impl Parser<'_> {
         let next = self.word_at(1);
         let alone = next.is_none_or(|next| {
             (is_function_word(next) && !is_determiner(next) && next != "of")
+                || super::clause::is_going(next)
+                || ["need", "needs"].contains(&next)
                 || ",.".contains(next)
                 || word == "both"
                     && self.lexicon.adjective(&[next]).is_some()
@@ -189,10 +211,15 @@ impl Parser<'_> {
         });
         let head = match word {
             "it" if self.is_miswritten_its(word) => return None,
+            "it" | "this" | "that" if self.all_of_it_follows() => {
+                self.position += 1;
+                Head::Pronoun { plural: true }
+            }
             "it" | "him" => Head::Pronoun { plural: false },
+            "former" | "latter" if front.phrase.definite => Head::Pronoun { plural: false },
             "them" | "they" => Head::Pronoun { plural: true },
             "this" | "that" | "one" if alone && self.can_be_pronoun() => Head::Pronoun { plural: false },
-            "these" | "those" | "both" | "ones" | "all" if alone => Head::Pronoun { plural: true },
+            "these" | "those" | "both" | "ones" | "all" | "each" if alone => Head::Pronoun { plural: true },
             "everything" | "anything" | "stuff" => Head::Everything,
             "things" | "items" | "objects"
                 if front.phrase.definite || front.quantity == Some(Quantity::All) =>
@@ -375,65 +402,6 @@ impl Parser<'_> {
             })
     }
 
-    /// Noun phrases joined by "and" and commas, up to the next clause.
-    pub(super) fn phrases(&mut self, depth: usize) -> Vec<Phrase> {
-        let mut found = Vec::new();
-        let Some(first) = self.phrase(depth) else { return found };
-        found.push(first);
-        loop {
-            let start = self.position;
-            let joined = self.skip_joins();
-            if !joined || self.clause_starts_here(false) {
-                self.position = start;
-                return found;
-            }
-            let or = !self.negated && self.words[start..self.position].iter().any(|word| word == "or");
-            match self.phrase(depth) {
-                Some(phrase) if or => {
-                    if let Some(first) = found.pop() {
-                        let chosen = self.chosen(first, phrase);
-                        found.push(chosen);
-                    }
-                }
-                Some(mut phrase) => {
-                    // "all the cabinets and drawers"
-                    let all = found.last().is_some_and(|last| last.quantity == Quantity::All);
-                    if all && phrase.quantity == Quantity::Plural {
-                        phrase.quantity = Quantity::All;
-                    }
-                    // "both the plate and the bowl": one of each.
-                    if let [first] = found.as_mut_slice()
-                        && first.text.starts_with("both ")
-                    {
-                        first.quantity = Quantity::One;
-                    }
-                    found.push(phrase);
-                }
-                None => {
-                    self.position = start;
-                    return found;
-                }
-            }
-        }
-    }
-
-    /// Passes over "and", commas and the like between noun phrases.
-    pub(super) fn skip_joins(&mut self) -> bool {
-        let start = self.position;
-        while let Some(word) = self.peek() {
-            match word {
-                "," | "and" | "plus" | "or" | "nor" => self.position += 1,
-                "as" if self.rest().starts_with(&["as", "well", "as"]) => self.position += 3,
-                "along" | "together" if self.word_at(1) == Some("with") => self.position += 2,
-                "then" | "also" if self.position > start && !self.clause_starts_here(false) => {
-                    self.position += 1
-                }
-                _ => break,
-            }
-        }
-        self.position > start
-    }
-
     pub(super) fn longest_noun(&self) -> Option<(Noun, bool, usize)> {
         self.longest_noun_at(self.position)
     }
@@ -461,6 +429,9 @@ pub(super) fn nouns<'a>(words: &'a [String], lexicon: &'a Lexicon) -> Vec<NounAt
 }
 
 mod compound;
+mod list;
 mod mend;
 mod tail;
 mod usage;
+
+pub(super) use list::is_one_of;

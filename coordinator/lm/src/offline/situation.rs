@@ -9,7 +9,8 @@ use serde::Deserialize;
 use super::effect::{Change, Interpreter};
 use super::inflect;
 use super::lexicon::{LONGEST, Settings, squash};
-use super::mention::Which;
+use super::mention::{Spoken, Which};
+use super::syntax::Clause;
 
 /// As many situations are tried as there may be nothing for in the scene.
 const MOST_TRIED: usize = 4;
@@ -135,6 +136,33 @@ impl Interpreter<'_, '_> {
         ranked.iter().any(|(situation, _)| self.situation(index, situation, words))
     }
 
+    /// What a situation spoke of, where the next clause carries it on: "make a coffee and bring it to the table".
+    pub fn speak_of_what_came_about(&mut self, index: usize, clauses: &[Clause<'_>]) {
+        let carried = clauses.get(index + 1).is_some_and(Clause::carries_it);
+        let spoken = if carried { self.brought_about(index) } else { Spoken::default() };
+        self.discourse.spoken.push(spoken);
+    }
+
+    fn brought_about(&self, index: usize) -> Spoken {
+        let mine = self.facts.iter().filter(|fact| fact.clause == index);
+        let mut objects: Vec<usize> = mine
+            .map(|fact| fact.entity)
+            .filter(|&e| self.discourse.scene.affords(self.discourse.entities[e].kind(), "pickupable"))
+            .collect();
+        objects.dedup();
+        // A salad is carried in its bowl.
+        let mine = self.facts.iter().filter(|fact| fact.clause == index);
+        let vessel = mine.filter_map(|fact| match fact.change {
+            Change::Inside(place) => Some(place),
+            _ => None,
+        });
+        let carried =
+            |&e: &usize| self.discourse.scene.affords(self.discourse.entities[e].kind(), "pickupable");
+        let mut places: Vec<usize> = vessel.filter(carried).collect();
+        places.dedup();
+        Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
+    }
+
     /// Adds the facts of a situation; false when the scene has nothing for it.
     pub fn situation(&mut self, index: usize, situation: &Situation, words: &[String]) -> bool {
         self.at_clause(index);
@@ -154,7 +182,7 @@ impl Interpreter<'_, '_> {
             }
             for entity in found {
                 let kind = self.discourse.entities[entity].kind().to_owned();
-                if self.bring_about(entity, template) && !meant.contains(&kind) {
+                if self.bring_about(entity, template, words) && !meant.contains(&kind) {
                     meant.push(kind);
                 }
             }
@@ -182,14 +210,41 @@ impl Interpreter<'_, '_> {
                 continue;
             };
             at += length;
-            let fits = |kind: &&String| scene.has(kind) && scene.affords(kind, affordance);
-            let kinds = noun.kinds.iter().filter(fits).take(if noun.class { usize::MAX } else { 1 });
-            for kind in kinds {
-                let all = plural && scene.of_kind(kind).len() > 1;
+            // A stove is switched by its knobs.
+            let switched = |kind: &String| {
+                let control = lexicon.control(kind).filter(|_| affordance == "toggleable" && scene.has(kind));
+                control.map_or_else(|| kind.clone(), str::to_owned)
+            };
+            let fits = |kind: &String| scene.has(kind) && scene.affords(kind, affordance);
+            let kinds: Vec<String> = noun.kinds.iter().map(switched).filter(fits).collect();
+            for kind in kinds.iter().take(if noun.class { usize::MAX } else { 1 }) {
+                let controls = affordance == "toggleable" && !noun.kinds.contains(kind);
+                let all = (plural || controls) && scene.of_kind(kind).len() > 1;
                 found.push(self.discourse.entity(kind, if all { Which::All } else { Which::Any }));
             }
         }
         found
+    }
+
+    /// "too dark at the desk": whether what is switched stands on what is named.
+    fn stands_at_what_is_named(&self, kind: &str, words: &[String]) -> bool {
+        let (scene, lexicon) = (self.discourse.scene, self.discourse.lexicon);
+        if !scene.affords(kind, "toggleable") || scene.affords(kind, "isHeatSource") {
+            return false;
+        }
+        let furniture = |word: &String| {
+            let kinds = lexicon.noun(&[word]).map(|(noun, _)| noun.kinds.as_slice()).unwrap_or_default();
+            kinds
+                .first()
+                .filter(|kind| scene.affords(kind, "receptacle") && !scene.affords(kind, "pickupable"))
+        };
+        words.iter().filter_map(furniture).any(|place| {
+            kind.strip_suffix("Lamp") == Some(place)
+                || scene
+                    .of_kind(kind)
+                    .iter()
+                    .any(|object| scene.lies_in(object, &|parent| parent.kind == *place))
+        })
     }
 
     fn instances(&mut self, template: &Template, words: &[String]) -> Vec<usize> {
@@ -206,7 +261,11 @@ impl Interpreter<'_, '_> {
             found.push(self.discourse.entity(kind, which));
         }
         let mut here = template.one.iter().filter(|kind| scene.has(kind));
-        let one = here.clone().find(named).or_else(|| here.next());
+        let one = here
+            .clone()
+            .find(named)
+            .or_else(|| here.clone().find(|kind| self.stands_at_what_is_named(kind, words)));
+        let one = one.or_else(|| here.next());
         for kind in one.into_iter().chain(template.one_of_each.iter().filter(|kind| scene.has(kind))) {
             found.push(self.discourse.entity(kind, Which::Any));
         }
@@ -214,8 +273,15 @@ impl Interpreter<'_, '_> {
     }
 
     /// Adds what a template says of one entity; false when that is not possible here.
-    fn bring_about(&mut self, entity: usize, template: &Template) -> bool {
-        let scene = self.discourse.scene;
+    fn bring_about(&mut self, entity: usize, template: &Template, words: &[String]) -> bool {
+        let (scene, lexicon) = (self.discourse.scene, self.discourse.lexicon);
+        let named = |place: &&String| {
+            let first = |word: &String| {
+                let kind = lexicon.noun(&[word]).and_then(|(noun, _)| noun.kinds.first());
+                kind == Some(*place)
+            };
+            words.iter().any(first)
+        };
         let kind = self.discourse.entities[entity].kind().to_owned();
         let before = self.facts.len();
         for (property, value) in &self.discourse.possible_states(entity, template.is.clone()) {
@@ -232,7 +298,9 @@ impl Interpreter<'_, '_> {
         let home = if template.home {
             self.discourse.lexicon.homes(&kind).find(|home| scene.accepts(home, &kind)).map(str::to_owned)
         } else {
-            template.into.iter().find(|place| scene.accepts(place, &kind)).cloned()
+            // "on the sofa": there, of all the places it may go.
+            let mut takes = template.into.iter().filter(|place| scene.accepts(place, &kind));
+            takes.clone().find(named).or_else(|| takes.next()).cloned()
         };
         let carried = scene.team_has(&["PickupObject", "PutObject"]) && scene.team_lifts(&kind);
         if let Some(home) = home.filter(|_| carried) {

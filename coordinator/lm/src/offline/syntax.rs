@@ -194,6 +194,16 @@ impl Clause<'_> {
         self.words.iter().any(|word| words.contains(&word.as_str()))
     }
 
+    /// Whether it puts somewhere what was spoken of: "… and put it on the counter".
+    pub fn carries_it(&self) -> bool {
+        self.verbs.iter().any(|verb| verb.act == Act::Place)
+            && self.objects.iter().any(|phrase| matches!(phrase.head, Head::Pronoun { .. }))
+            && self
+                .places
+                .iter()
+                .any(|place| matches!(place.relation, Relation::In | Relation::To | Relation::Near))
+    }
+
     /// Whether it tells something rather than asks for it: it has no verb known, but somebody is or does something.
     pub fn is_remark(&self) -> bool {
         const TELLS: [&str; 16] = [
@@ -223,6 +233,11 @@ impl Clause<'_> {
         self.says_any(&[
             "should", "must", "needs", "need", "shall", "be", "once", "when", "after", "before", "until",
         ]) || !self.says_any(&["is", "are", "was", "were", "left", "s"]) && !self.says_any(&["while"])
+            || self
+                .words
+                .iter()
+                .find(|word| ![",", "and"].contains(&word.as_str()))
+                .is_some_and(|first| first == "that" || first == "so")
     }
 
     /// Whether its verb is that of the clause before it, not said again.

@@ -42,8 +42,18 @@ pub fn tokens(instruction: &str) -> Vec<Token> {
             found.push(Token { text: POSSESSIVE.to_owned(), typed: String::new() });
         }
     };
-    for c in instruction.chars() {
+    let mut before = ' ';
+    let mut letters = instruction.chars().peekable();
+    while let Some(c) = letters.next() {
+        // " - " sets something apart; "t-shirt" does not.
+        let apart = c == '-' && before == ' ' && letters.peek() == Some(&' ');
+        before = c;
         match c {
+            '\u{2013}' | '\u{2014}' | '(' | ')' => {
+                flush(&mut word, &mut found);
+                found.push(Token { text: ",".to_owned(), typed: c.to_string() });
+            }
+            '-' if apart => found.push(Token { text: ",".to_owned(), typed: c.to_string() }),
             c if c.is_alphanumeric() || c == '_' => word.push(c),
             '\'' | '\u{2019}' | '`' => word.push('\''),
             ',' | ';' | '.' | '!' | '?' | ':' | '\n' => {
@@ -210,6 +220,30 @@ fn ending(words: &[String], lexicon: &Lexicon) -> Option<usize> {
     })
 }
 
+/// Words without what is put in between commas and says nothing: "the bread, however, goes …".
+pub fn without_asides(words: Vec<String>, lexicon: &Lexicon) -> Vec<String> {
+    let aside = |at: usize| {
+        words[at] == ","
+            && (1..=super::lexicon::LONGEST).any(|length| {
+                let between: Option<Vec<&str>> =
+                    (at + 1..=at + length).map(|i| words.get(i).map(String::as_str)).collect();
+                words.get(at + length + 1).is_some_and(|word| word == ",")
+                    && between.is_some_and(|between| lexicon.is_small("asides", &between))
+            })
+    };
+    let mut kept = Vec::with_capacity(words.len());
+    let mut at = 0;
+    while at < words.len() {
+        if aside(at) {
+            at += 1 + words[at + 1..].iter().position(|word| word == ",").unwrap_or(0) + 1;
+        } else {
+            kept.push(words[at].clone());
+            at += 1;
+        }
+    }
+    kept
+}
+
 /// Whether a word needs no repair.
 pub fn is_known(word: &str, lexicon: &Lexicon, scene: &Scene) -> bool {
     super::syntax::is_function_word(word)
@@ -230,7 +264,12 @@ fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<(Stri
     let limit = if word.chars().count() >= 7 { 2 } else { 1 };
     let letters: Vec<char> = word.chars().collect();
     let mut best: Option<((usize, bool, usize), String)> = None;
+    let alphabet = letter_set(word);
     for candidate in known {
+        // An edit changes two letters of the alphabet at most, and a plural adds one: most words are far.
+        if (alphabet ^ letter_set(candidate)).count_ones() as usize > 2 * limit + 1 {
+            continue;
+        }
         let length = candidate.chars().count();
         if length < 4 || length.abs_diff(letters.len()) > limit {
             continue;
@@ -252,6 +291,11 @@ fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<(Stri
         }
     }
     best.map(|(score, answer)| (answer, score.0))
+}
+
+/// Which of the letters a to z are in a word.
+fn letter_set(word: &str) -> u32 {
+    word.bytes().filter(u8::is_ascii_lowercase).fold(0, |set, letter| set | 1 << (letter - b'a'))
 }
 
 /// Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours

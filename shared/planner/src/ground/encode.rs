@@ -1,5 +1,6 @@
 //! From propositions to finite-domain variables packed into words.
 
+use super::invariant::Groups;
 use super::limits::Ticks;
 use super::propositional::{Ground, GroundOperator, Lit, Stretch};
 use super::relation::Relation;
@@ -12,12 +13,12 @@ use crate::task::{AtomText, Axiom, ConditionalEffect, Fact, FactId, Names, Opera
 /// No plan is long enough to leave the range of doubles in steps smaller than this.
 const MAX_SAFE_GAIN: f64 = 1e200;
 
-/// Builds the task. `groups` are sets of atoms of which at most one ever holds; each becomes one variable.
+/// Builds the task. Of the `groups`, each of the disjoint ones becomes one variable.
 pub(crate) fn encode(
     mut lifted: Lifted,
     relations: &[Relation],
     ground: Ground,
-    groups: &[Vec<u32>],
+    groups: &Groups,
     limits: &GroundLimits<'_>,
 ) -> Result<Task, GroundError> {
     let mut encoder = Encoder {
@@ -35,16 +36,21 @@ pub(crate) fn encode(
         encoder.impossible();
         return Ok(encoder.task);
     }
-    encoder.variables(groups);
+    encoder.variables(&groups.disjoint);
+    encoder.exclusive(&groups.all);
     encoder.initial_state();
     let numbers = encoder.numbers();
     encoder.operators(&numbers, limits)?;
     encoder.axioms()?;
     let goal = encoder.conditions(ground.goal);
+    let in_goal = |group: &[FactId]| -> Vec<FactId> {
+        group.iter().copied().filter(|fact| goal.binary_search(fact).is_ok()).collect()
+    };
     let clash = goal
         .windows(2)
         .find(|pair| encoder.variable(pair[0]) == encoder.variable(pair[1]))
-        .map(<[_]>::to_vec);
+        .map(<[_]>::to_vec)
+        .or_else(|| encoder.task.exclusive.rows().map(in_goal).find(|clash| clash.len() > 1));
     let Encoder { mut task, .. } = encoder;
     if let Some(pair) = clash {
         let texts: Vec<String> = pair.iter().map(|&fact| task.fact_text(fact)).collect();
@@ -177,6 +183,14 @@ impl Encoder<'_> {
             masks[variable.word as usize] |= variable.mask << variable.shift;
         }
         self.task.derived_masks = masks.into_iter().enumerate().filter(|&(_, mask)| mask != 0).collect();
+    }
+
+    fn exclusive(&mut self, groups: &[Vec<u32>]) {
+        for group in groups {
+            let facts = group.iter().map(|&atom| self.fact(Lit::new(atom, true)));
+            let facts: Vec<FactId> = facts.collect();
+            self.task.exclusive.push_row(facts);
+        }
     }
 
     fn initial_state(&mut self) {

@@ -27,15 +27,42 @@ struct Part {
 
 type Candidate = Vec<Part>;
 
-/// Finds disjoint mutex groups among the relevant atoms, large ones first.
+/// At most so many atoms in groups that are not made variables are remembered.
+const MAX_REMEMBERED: usize = 100_000;
+
+/// Sets of atoms of which at most one ever holds.
+#[derive(Debug, Default)]
+pub(crate) struct Groups {
+    /// Disjoint ones, large ones first: these become variables.
+    pub disjoint: Vec<Vec<u32>>,
+    /// All, as they were found.
+    pub all: Vec<Vec<u32>>,
+}
+
+/// Finds mutex groups among the relevant atoms.
 pub(crate) fn mutex_groups(
     ground: &Ground,
     relations: &[Relation],
     limits: &GroundLimits<'_>,
-) -> Result<Vec<Vec<u32>>, GroundError> {
+) -> Result<Groups, GroundError> {
     let atoms = Atoms { ground, relations };
+    let mut all = proved(&atoms, false, limits)?;
+    let disjoint = choose(&all, ground.names.len());
+    // Hands that are empty or hold something: the search does without, proofs do not.
+    all.extend(proved(&atoms, true, limits)?);
+    let mut remembered = 0;
+    all.retain(|group| {
+        remembered += group.len();
+        remembered <= MAX_REMEMBERED
+    });
+    Ok(Groups { disjoint, all })
+}
+
+/// The groups of the first candidates, and of those that they are refined to, that are proved to be some.
+fn proved(atoms: &Atoms<'_>, single: bool, limits: &GroundLimits<'_>) -> Result<Vec<Vec<u32>>, GroundError> {
+    let ground = atoms.ground;
+    let mut open = atoms.first_candidates(single);
     let samples = samples(ground);
-    let mut open: VecDeque<Candidate> = atoms.first_candidates();
     let mut seen: BTreeSet<Candidate> = open.iter().cloned().collect();
     let mut looked_at = 0;
     let mut groups = Vec::new();
@@ -45,7 +72,7 @@ pub(crate) fn mutex_groups(
         if looked_at > MAX_CANDIDATES {
             break;
         }
-        let instances = atoms.instances(&candidate);
+        let instances = Instances { single, ..atoms.instances(&candidate) };
         // One operator of each action shows most candidates wrong at once.
         let sampled = samples.iter().map(|&at| &ground.operators[at as usize]);
         let wrong = sampled.chain(&ground.operators).find(|operator| !instances.balanced(ground, operator));
@@ -60,7 +87,7 @@ pub(crate) fn mutex_groups(
             }
         }
     }
-    Ok(choose(groups, ground.names.len()))
+    Ok(groups)
 }
 
 /// The first operator of each action.
@@ -72,7 +99,7 @@ fn samples(ground: &Ground) -> Vec<u32> {
 }
 
 /// Picks disjoint groups, at each step the one with the most atoms not yet covered.
-fn choose(groups: Vec<Vec<u32>>, atoms: usize) -> Vec<Vec<u32>> {
+fn choose(groups: &[Vec<u32>], atoms: usize) -> Vec<Vec<u32>> {
     let mut covered = vec![false; atoms];
     let mut heap: BinaryHeap<(usize, std::cmp::Reverse<usize>)> =
         groups.iter().enumerate().map(|(at, group)| (group.len(), std::cmp::Reverse(at))).collect();
@@ -105,6 +132,8 @@ struct Instances {
     weight: Vec<u32>,
     /// How many atoms each key has.
     size: Vec<u32>,
+    /// An atom whose key no other has is to be refined: by itself it would be balanced, and no use.
+    single: bool,
 }
 
 impl Atoms<'_> {
@@ -116,7 +145,9 @@ impl Atoms<'_> {
         self.ground.names[atom].filter(|_| self.ground.relevant[atom] && !self.ground.derived[atom])
     }
 
-    fn first_candidates(&self) -> VecDeque<Candidate> {
+    /// A predicate each, with one argument counted or none. A single atom is no group by itself, but one that holds
+    /// at first may be part of one (`single`: only those): its key is all that it has.
+    fn first_candidates(&self, single: bool) -> VecDeque<Candidate> {
         let mut predicates = BTreeSet::new();
         for atom in 0..self.ground.names.len() {
             if let Some(name) = self.usable(atom) {
@@ -125,7 +156,7 @@ impl Atoms<'_> {
         }
         let mut candidates = VecDeque::new();
         for (predicate, arity) in predicates {
-            for counted in (0..arity).map(Some).chain([None]) {
+            for counted in (0..arity).map(Some).chain([None]).filter(|counted| !single || counted.is_none()) {
                 let key = (0..arity).filter(|&at| Some(at) != counted).collect();
                 candidates.push_back(vec![Part { predicate, key }]);
             }
@@ -134,8 +165,8 @@ impl Atoms<'_> {
     }
 
     fn instances(&self, candidate: &Candidate) -> Instances {
-        let mut instances =
-            Instances { key_of: vec![NONE; self.ground.names.len()], weight: Vec::new(), size: Vec::new() };
+        let key_of = vec![NONE; self.ground.names.len()];
+        let mut instances = Instances { key_of, weight: Vec::new(), size: Vec::new(), single: false };
         let (mut keys, mut table, mut key) = (Vec::<Vec<u32>>::new(), IdTable::default(), Vec::new());
         for atom in 0..self.ground.names.len() {
             let Some(name) = self.usable(atom) else { continue };
@@ -264,7 +295,9 @@ impl Instances {
                 continue;
             }
             let others = effects.iter().filter(|lit| !lit.holds() && self.key_of[lit.atom()] == key);
-            if others.filter(|lit| lit.atom() != add.atom()).count() as u32 + 1 < self.size[key as usize] {
+            let size = self.size[key as usize];
+            let deleted = others.filter(|lit| lit.atom() != add.atom()).count() as u32;
+            if deleted + 1 < size || self.single && size == 1 {
                 return Some(add.atom());
             }
         }

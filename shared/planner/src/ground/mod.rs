@@ -26,6 +26,8 @@ use lamma_pddl::ast::{Domain, Problem};
 
 pub use limits::GroundLimits;
 
+use invariant::Groups;
+
 use crate::lifted;
 use crate::search::GaveUp;
 use crate::task::Task;
@@ -62,7 +64,10 @@ pub fn ground(domain: &Domain, problem: &Problem, limits: &GroundLimits<'_>) -> 
     simplify::simplify(&mut ground);
     limits.check_time()?;
     let possible = ground.impossible.is_empty();
-    let groups =
-        if possible { invariant::mutex_groups(&ground, &reached.relations, limits)? } else { Vec::new() };
+    let groups = if possible {
+        invariant::mutex_groups(&ground, &reached.relations, limits)?
+    } else {
+        Groups::default()
+    };
     encode::encode(lifted, &reached.relations, ground, &groups, limits)
 }

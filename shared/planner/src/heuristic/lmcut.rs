@@ -203,12 +203,6 @@ impl<'a> LandmarkCut<'a> {
         self.full_cost.iter_mut().zip(costs).for_each(|(own, cost)| *own = cost);
     }
 
-    /// The operators that were counted for the state looked at last.
-    pub(crate) fn counted(&self) -> impl Iterator<Item = OperatorId> {
-        let operators = (0..self.task.operators.len() as u32).map(OperatorId);
-        operators.filter(|o| self.cost[o.index()] < self.full_cost[o.index()])
-    }
-
     /// The dearest goal: what supports reaching all of them.
     fn dearest_goal(&self) -> Option<FactId> {
         self.task.goal.iter().copied().max_by_key(|fact| self.wave.fact_cost[fact.index()])

@@ -2,9 +2,9 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::sat::Fuel;
+use super::sat::{Found, Fuel};
 use super::windows::{Windows, leads_to};
-use super::{Answer, Makespan, MakespanLimits, Schedule, Scheduler};
+use super::{Answer, Asked, Makespan, MakespanLimits, Schedule, Scheduler};
 use crate::search::{Limits, spread};
 use crate::task::OperatorId;
 
@@ -46,19 +46,9 @@ impl Scheduler<'_> {
         let mut best = None;
         let mut all = Fuel::new(&MakespanLimits { conflicts: u64::MAX, ..limits.clone() }, cancel);
         let mut round = ROUND;
+        let mut asked = None;
         while bound < windows.order.makespan && !all.is_empty() {
-            all.slice(round, |fuel| {
-                while bound < windows.order.makespan && !fuel.is_empty() {
-                    match self.of_length(bound, fuel) {
-                        Answer::None => bound += 1,
-                        Answer::Schedule(schedule) => {
-                            best = Some(schedule);
-                            return;
-                        }
-                        Answer::Unknown => return,
-                    }
-                }
-            });
+            best = all.slice(round, |fuel| self.raise(&mut bound, windows.order.makespan, &mut asked, fuel));
             if best.is_some() {
                 break;
             }
@@ -70,6 +60,35 @@ impl Scheduler<'_> {
             best = Some(Schedule { steps: windows.order.steps() });
         }
         Makespan { lower_bound: Some(bound), schedule: best }
+    }
+
+    /// Raises the bound while that takes no more than the fuel; or a shortest schedule. `asked` is the formula for the
+    /// bound, if it was asked before: the solver goes on where it stopped.
+    fn raise<'f>(
+        &self,
+        bound: &mut u32,
+        below: u32,
+        asked: &mut Option<Asked<'f>>,
+        fuel: &mut Fuel<'f>,
+    ) -> Option<Schedule> {
+        while *bound < below && !fuel.is_empty() {
+            if asked.is_none() {
+                *asked = self.formula(&self.reach, &self.model.goal, &self.relevant, *bound, fuel);
+            }
+            match asked.as_mut()?.ask(fuel) {
+                (Found::Contradiction, _) => *bound += 1,
+                (Found::Stopped, _) => return None,
+                (Found::Model, steps) => {
+                    *asked = None;
+                    return match self.checked(steps) {
+                        Answer::Schedule(schedule) => Some(schedule),
+                        Answer::None | Answer::Unknown => None,
+                    };
+                }
+            }
+            *asked = None;
+        }
+        None
     }
 
     /// Another plan, one that gives all agents something to do.

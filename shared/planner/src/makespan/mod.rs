@@ -12,6 +12,7 @@ mod layers;
 mod milestones;
 mod model;
 mod order;
+mod pairs;
 mod relevance;
 mod sat;
 mod stand_in;
@@ -28,13 +29,16 @@ use layers::{NEVER, Reach, Waiting};
 pub use milestones::{Milestone, Need, all_before};
 use model::{Lit, Model};
 use order::Order;
-use sat::{Found, Fuel, is_true};
+use sat::{Found, Fuel, Question, is_true};
 use together::Together;
 use windows::leads_to;
 use work::Work;
 
 /// An operator in a step makes at least so many literals in a formula.
 const LITERALS_PER_OPERATOR: u64 = 8;
+
+/// What may be spent on which facts exclude each other, in words of bits looked at: some hundredths of a second.
+const PAIRS: u64 = 30_000_000;
 
 /// How much may be spent. The first two are the same on every machine.
 #[derive(Clone, Debug)]
@@ -91,6 +95,8 @@ pub struct Scheduler<'a> {
     model: Model,
     waiting: Waiting,
     reach: Reach,
+    /// The first layer in which all of the goal may hold.
+    depth: u32,
     /// Operators that a shortest schedule may need.
     relevant: Vec<bool>,
     together: Together,
@@ -100,6 +106,24 @@ pub struct Scheduler<'a> {
 
 /// Operators, step by step.
 type Steps = Vec<Vec<OperatorId>>;
+
+/// A formula in the solver, and where to read the schedule.
+struct Asked<'f> {
+    question: Question<'f>,
+    /// For each step, the operators and their variables.
+    operators: Vec<Vec<(u32, sat::Bool)>>,
+}
+
+impl Asked<'_> {
+    fn ask(&mut self, fuel: &mut Fuel<'_>) -> (Found, Steps) {
+        let (found, model) = self.question.ask(fuel);
+        let chosen = |step: &Vec<(u32, sat::Bool)>| {
+            let done = step.iter().filter(|(_, variable)| is_true(&model, *variable));
+            done.map(|&(operator, _)| OperatorId(operator)).collect::<Vec<_>>()
+        };
+        (found, self.operators.iter().map(chosen).collect())
+    }
+}
 
 /// What there is to say about schedules of some length.
 enum Answer {
@@ -126,20 +150,25 @@ impl<'a> Scheduler<'a> {
             model.put_in_order(task, milestones);
         }
         let waiting = Waiting::new(&model);
-        let reach = Reach::new(&model, &waiting, |lit| model.initially[lit.index()], u32::MAX);
+        let mut reach = Reach::new(&model, &waiting, |lit| model.initially[lit.index()], u32::MAX);
         if reach.goal(&model.goal) == NEVER {
             return None;
         }
         let relevant = stand_in::needed(task, &model);
+        let plain = model.events.is_empty() && model.derivations.is_empty() && !ordered;
+        let depth = match plain && !task.has_numbers() {
+            true => pairs::raise(&model, &relevant, &mut reach, PAIRS),
+            false => reach.goal(&model.goal),
+        };
         // Without conditional effects, what an agent may do to a literal is one variable anyway.
         let together =
             if model.events.is_empty() { Together::default() } else { Together::new(task, &model) };
-        Some(Scheduler { task, model, waiting, reach, relevant, together, ordered })
+        Some(Scheduler { task, model, waiting, reach, depth, relevant, together, ordered })
     }
 
-    /// The depth of the joint relaxed planning graph: no schedule is shorter.
+    /// The depth of the joint planning graph: no schedule is shorter.
     pub fn depth(&self) -> u32 {
-        self.reach.goal(&self.model.goal)
+        self.depth
     }
 
     /// A lower bound from the work there is, by looking at no more than `sets` sets of agents.
@@ -190,7 +219,7 @@ impl<'a> Scheduler<'a> {
     }
 
     fn of_length(&self, steps: u32, fuel: &mut Fuel<'_>) -> Answer {
-        if self.reach.goal(&self.model.goal) > steps {
+        if self.depth > steps {
             return Answer::None;
         }
         if fuel.stopped() {
@@ -204,7 +233,25 @@ impl<'a> Scheduler<'a> {
     }
 
     /// The formula for a stretch of so many steps, from where `reach` begins to `goal`, with the operators that
-    /// are `allowed`.
+    /// are `allowed`; `None` if it is too large or takes too long.
+    fn formula<'f>(
+        &self,
+        reach: &Reach,
+        goal: &[Lit],
+        allowed: &[bool],
+        steps: u32,
+        fuel: &mut Fuel<'f>,
+    ) -> Option<Asked<'f>> {
+        let layers = reach.layers(&self.model, goal, allowed, steps);
+        let operators: usize = layers.iter().map(|layer| layer.operators.len()).sum();
+        if operators as u64 * LITERALS_PER_OPERATOR > fuel.size {
+            return None;
+        }
+        let formula = formula::formula(&self.model, &self.together, &layers, goal, fuel)?;
+        Some(Asked { question: formula.clauses.question(fuel)?, operators: formula.operators })
+    }
+
+    /// A schedule of such a stretch.
     fn span(
         &self,
         reach: &Reach,
@@ -213,20 +260,10 @@ impl<'a> Scheduler<'a> {
         steps: u32,
         fuel: &mut Fuel<'_>,
     ) -> (Found, Steps) {
-        let layers = reach.layers(&self.model, goal, allowed, steps);
-        let operators: usize = layers.iter().map(|layer| layer.operators.len()).sum();
-        if operators as u64 * LITERALS_PER_OPERATOR > fuel.size {
-            return (Found::Stopped, Steps::new());
+        match self.formula(reach, goal, allowed, steps, fuel) {
+            Some(mut asked) => asked.ask(fuel),
+            None => (Found::Stopped, Steps::new()),
         }
-        let Some(formula) = formula::formula(&self.model, &self.together, &layers, goal, fuel) else {
-            return (Found::Stopped, Steps::new());
-        };
-        let (found, model) = formula.clauses.solve(fuel);
-        let chosen = |step: &Vec<(u32, sat::Bool)>| {
-            let done = step.iter().filter(|(_, variable)| is_true(&model, *variable));
-            done.map(|&(operator, _)| OperatorId(operator)).collect::<Vec<_>>()
-        };
-        (found, formula.operators.iter().map(chosen).collect())
     }
 
     /// The steps a linear plan takes if everybody acts as soon as the others' actions allow. Only for tasks

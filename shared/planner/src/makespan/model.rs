@@ -57,7 +57,7 @@ pub(super) struct Model {
     pub goal: Vec<Lit>,
     /// Which literals hold at the start.
     pub initially: Vec<bool>,
-    /// The literals of each variable with more than two values, at most one of which holds.
+    /// The literals of each variable with more than two values, at most one of which holds, and of other such sets.
     pub groups: Vec<Vec<Lit>>,
     facts: usize,
     variable_of: Vec<u32>,
@@ -101,6 +101,14 @@ impl Model {
         }
         for variable in task.variables[..task.primary_variables].iter().filter(|v| v.size > 2) {
             model.groups.push((0..variable.size).map(|value| Lit(variable.first.0 + value)).collect());
+        }
+        // Where actions have conditions of their own, these cost more than they help.
+        if task.conditional.items().is_empty() {
+            let variable = |fact: &FactId| task.facts[fact.index()].variable;
+            let of_several =
+                |group: &&[FactId]| group.windows(2).any(|two| variable(&two[0]) != variable(&two[1]));
+            let groups = task.exclusive.rows().filter(of_several);
+            model.groups.extend(groups.map(|group| group.iter().map(|fact| Lit(fact.0)).collect()));
         }
         for operator in (0..task.operators.len() as u32).map(OperatorId) {
             model.operator(task, operator);

@@ -66,8 +66,12 @@ impl<'a> Fuel<'a> {
     }
 
     pub fn stopped(&self) -> bool {
-        self.cancel.load(Ordering::Relaxed) || self.deadline.is_some_and(|d| Instant::now() >= d)
+        is_over(self.deadline, self.cancel)
     }
+}
+
+fn is_over(deadline: Option<Instant>, cancel: &AtomicBool) -> bool {
+    cancel.load(Ordering::Relaxed) || deadline.is_some_and(|deadline| Instant::now() >= deadline)
 }
 
 /// Decisions and conflicts between two looks at the clock.
@@ -85,7 +89,8 @@ const LOAD: usize = 1 << 16;
 struct Watch<'a> {
     conflicts: u64,
     limit: u64,
-    fuel: &'a Fuel<'a>,
+    deadline: Option<Instant>,
+    cancel: &'a AtomicBool,
     ticks: Cell<u32>,
     stopped: Cell<bool>,
 }
@@ -100,7 +105,7 @@ impl Callbacks for Watch<'_> {
     fn stop(&self) -> bool {
         let ticks = self.ticks.get() + 1;
         self.ticks.set(ticks % LOOK);
-        if ticks == LOOK && self.fuel.stopped() {
+        if ticks == LOOK && is_over(self.deadline, self.cancel) {
             self.stopped.set(true);
         }
         self.stopped.get() || self.conflicts >= self.limit
@@ -158,15 +163,16 @@ impl Clauses {
         }
     }
 
-    /// Looks for a model; `fuel` is used up by what that takes. A model is given as the values of all
-    /// variables.
-    pub fn solve(&self, fuel: &mut Fuel<'_>) -> (Found, Vec<bool>) {
-        if fuel.conflicts == 0 || fuel.stopped() {
-            return (Found::Stopped, Vec::new());
-        }
-        // What the solver looks at for a conflict is known only afterwards; this much is usual.
-        let limit = fuel.conflicts.min(fuel.work / LOOKS_PER_CONFLICT + 1);
-        let watch = Watch { conflicts: 0, limit, fuel, ticks: Cell::new(0), stopped: Cell::new(false) };
+    /// Loads the formula into a solver, which uses up as much work as it has literals. `None` if the fuel is used up.
+    pub fn question<'a>(&self, fuel: &mut Fuel<'a>) -> Option<Question<'a>> {
+        let watch = Watch {
+            conflicts: 0,
+            limit: 0,
+            deadline: fuel.deadline,
+            cancel: fuel.cancel,
+            ticks: Cell::new(0),
+            stopped: Cell::new(false),
+        };
         let mut solver = Solver::new(SolverOpts::default(), watch);
         for _ in 0..self.variables {
             solver.new_var_default();
@@ -175,15 +181,40 @@ impl Clauses {
         let mut clause = Vec::new();
         let mut possible = true;
         for (count, &end) in self.ends.iter().enumerate() {
-            if count % LOAD == LOAD - 1 && fuel.stopped() {
-                return (Found::Stopped, Vec::new());
+            if count % LOAD == 0 && fuel.stopped() {
+                return None;
             }
             clause.clear();
             clause.extend_from_slice(&self.lits[start..end]);
             start = end;
             possible = possible && solver.add_clause_reuse(&mut clause);
         }
-        let answer = if possible { solver.solve_limited(&[]) } else { lbool::FALSE };
+        // The last question may use more than there is: it is worth an answer.
+        fuel.work = fuel.work.saturating_sub(self.size()).max(1);
+        Some(Question { solver, possible })
+    }
+}
+
+/// A formula in a solver. It can be asked again with more to spend: what was learnt is kept.
+pub(super) struct Question<'a> {
+    solver: Solver<Watch<'a>>,
+    possible: bool,
+}
+
+impl Question<'_> {
+    /// Looks for a model; `fuel` is used up by what that takes. A model is given as the values of all
+    /// variables.
+    pub fn ask(&mut self, fuel: &mut Fuel<'_>) -> (Found, Vec<bool>) {
+        if fuel.conflicts == 0 || fuel.stopped() {
+            return (Found::Stopped, Vec::new());
+        }
+        let solver = &mut self.solver;
+        let before = (solver.num_conflicts(), solver.num_propagations());
+        let watch = solver.cb_mut();
+        watch.conflicts = 0;
+        // What the solver looks at for a conflict is known only afterwards; this much is usual.
+        watch.limit = fuel.conflicts.min(fuel.work / LOOKS_PER_CONFLICT + 1);
+        let answer = if self.possible { solver.solve_limited(&[]) } else { lbool::FALSE };
         let found = if answer == lbool::TRUE {
             Found::Model
         } else if answer == lbool::FALSE {
@@ -195,10 +226,10 @@ impl Clauses {
             Found::Model => solver.get_model().iter().map(|&value| value == lbool::TRUE).collect(),
             _ => Vec::new(),
         };
-        let (conflicts, looks) = (solver.num_conflicts(), solver.num_propagations());
-        drop(solver);
+        let conflicts = solver.num_conflicts() - before.0;
+        let looks = solver.num_propagations() - before.1;
         fuel.conflicts = fuel.conflicts.saturating_sub(conflicts);
-        fuel.work = fuel.work.saturating_sub(self.size() + looks);
+        fuel.work = fuel.work.saturating_sub(looks);
         (found, model)
     }
 }

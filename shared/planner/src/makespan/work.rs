@@ -8,9 +8,11 @@
 //!
 //! The bound holds for every set of agents; which one gives most is looked for greedily.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::layers::{NEVER, Reach};
 use super::model::{Maker, Model};
-use crate::heuristic::{Costs, LandmarkCut};
+use crate::heuristic::{Costs, Heuristic, LandmarkCut};
 use crate::task::Task;
 
 /// Bounds from work.
@@ -67,27 +69,80 @@ impl<'a> Work<'a> {
         let in_set = |operator: usize| set[model.agent_of[operator] as usize];
         cut.set_costs((0..task.operators.len()).map(|o| u32::from(in_set(o))));
         let Some(work) = cut.value(&task.init) else { return 0 };
-        let mut idle = vec![(NEVER, NEVER); model.agents];
-        for operator in cut.counted() {
-            let idle = &mut idle[model.agent_of[operator.index()] as usize];
-            idle.0 = idle.0.min(reach.operators[operator.index()]);
-            idle.1 = idle.1.min(followed_by[operator.index()]);
-        }
-        let idle: Vec<u32> = idle
-            .into_iter()
-            .filter(|i| i.0 != NEVER && i.1 != NEVER)
-            .map(|(head, tail)| head + tail)
-            .collect();
-        let done = |steps: u32| idle.iter().map(|&idle| steps.saturating_sub(idle)).sum::<u32>();
-        if work == 0 || idle.is_empty() {
+        if work == 0 {
             return 0;
         }
-        let mut steps = work.div_ceil(idle.len() as u32);
-        while done(steps) < work {
-            steps += 1;
+        let duties = duties(cut.findings(), |operator| {
+            let operator = operator as usize;
+            (model.agent_of[operator] as usize, reach.operators[operator], followed_by[operator])
+        });
+        // Those that cannot be done early, or must have something after them, may bound more than all of them do.
+        let heads: BTreeSet<u32> = duties.iter().map(|duty| duty.head).collect();
+        let tails: BTreeSet<u32> = duties.iter().map(|duty| duty.tail).collect();
+        let mut best = 0;
+        for &head in &heads {
+            for &tail in &tails {
+                let some = duties.iter().filter(|duty| duty.head >= head && duty.tail >= tail);
+                best = best.max(steps_for(some, model.agents));
+            }
         }
-        steps
+        best
     }
+}
+
+/// An action that must be done, one of several that different agents may do.
+struct Duty {
+    /// For each agent who can do it, the steps that must come before and after.
+    by: Vec<(usize, u32, u32)>,
+    /// The least of these.
+    head: u32,
+    tail: u32,
+}
+
+/// What must be done, from the cuts of a heuristic in which operators cost one or nothing: no operator is in two.
+fn duties(mut cuts: &[u32], of: impl Fn(u32) -> (usize, u32, u32)) -> Vec<Duty> {
+    let mut duties = Vec::new();
+    while let [_, count, rest @ ..] = cuts {
+        let (cut, rest) = rest.split_at(*count as usize);
+        cuts = rest;
+        let mut by: BTreeMap<usize, (u32, u32)> = BTreeMap::new();
+        for (agent, head, tail) in cut.iter().map(|&operator| of(operator)) {
+            if head != NEVER && tail != NEVER {
+                let own = by.entry(agent).or_insert((head, tail));
+                *own = (own.0.min(head), own.1.min(tail));
+            }
+        }
+        let head = by.values().map(|own| own.0).min().unwrap_or(0);
+        let tail = by.values().map(|own| own.1).min().unwrap_or(0);
+        duties.push(Duty {
+            by: by.into_iter().map(|(agent, own)| (agent, own.0, own.1)).collect(),
+            head,
+            tail,
+        });
+    }
+    duties
+}
+
+/// The steps it takes to do all of these: an agent is idle before the first it can do and after the last.
+fn steps_for<'a>(duties: impl Iterator<Item = &'a Duty>, agents: usize) -> u32 {
+    let mut idle = vec![(NEVER, NEVER); agents];
+    let mut work = 0u32;
+    for duty in duties {
+        work += 1;
+        for &(agent, head, tail) in &duty.by {
+            idle[agent] = (idle[agent].0.min(head), idle[agent].1.min(tail));
+        }
+    }
+    let idle: Vec<u32> = idle.into_iter().filter(|own| own.0 != NEVER).map(|own| own.0 + own.1).collect();
+    let done = |steps: u32| idle.iter().map(|&idle| steps.saturating_sub(idle)).sum::<u32>();
+    if work == 0 || idle.is_empty() {
+        return 0;
+    }
+    let mut steps = work.div_ceil(idle.len() as u32);
+    while done(steps) < work {
+        steps += 1;
+    }
+    steps
 }
 
 /// How many steps must follow each operator in a plan from which nothing can be left out.

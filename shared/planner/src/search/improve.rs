@@ -18,7 +18,8 @@ pub(super) fn improve(
 ) -> Vec<OperatorId> {
     let mut best = eliminate(task, plan);
     let mut left = effort;
-    for weight in [5, 2, 1] {
+    // A larger weight only repeats what the greedy search has found.
+    for weight in [2, 1] {
         // Ties are broken by length.
         let costs = Costs::PlusOne;
         let bound = cost(task, costs, &best);

@@ -69,6 +69,8 @@ pub enum Unsolvable {
     Unreachable(Vec<String>),
     /// Every reachable state was seen.
     Exhausted,
+    /// Some variables alone, whatever the others are, never come to what the goal asks of them.
+    OnAPart,
 }
 
 impl std::fmt::Display for Unsolvable {
@@ -80,6 +82,9 @@ impl std::fmt::Display for Unsolvable {
             Unsolvable::Exhausted => {
                 f.write_str("every reachable state was searched and none meets the goal")
             }
+            Unsolvable::OnAPart => f.write_str(
+                "what the goal asks for cannot hold together, whatever is done about everything else",
+            ),
         }
     }
 }

@@ -9,6 +9,7 @@ mod limits;
 mod novelty;
 mod open_list;
 mod portfolio;
+mod projection;
 mod registry;
 mod spread;
 mod type_buckets;
@@ -42,8 +43,12 @@ enum Progress {
 
 type Slice = Result<Progress, GaveUp>;
 
-/// The work, in nodes of the relaxed task looked at, that improving a plan may take by default.
+/// The work, in parts of the relaxed task looked at, that improving a plan may take by default.
 const IMPROVEMENT_WORK: u64 = 200_000;
+
+/// Counted for each state besides the parts of its relaxed task, so that small tasks, whose states cost little to
+/// estimate, do not get thousands of them: their plans are short, and soon as good as they get.
+const STATE_WORK: u64 = 1_000;
 
 /// How to search.
 #[derive(Clone, Debug, Default)]
@@ -126,11 +131,14 @@ pub fn solve_with_statistics(
     statistics.expanded = meter.expanded;
     match found {
         Ok(Some(path)) if options.engine != Engine::Portfolio => Outcome::Found(task.plan(&path)),
+        Err(reason) if reason != GaveUp::Cancelled && projection::is_out_of_reach(task) => {
+            Outcome::Unsolvable(Unsolvable::OnAPart)
+        }
         Err(reason) => Outcome::GaveUp(reason),
         Ok(None) => Outcome::Unsolvable(Unsolvable::Exhausted),
         Ok(Some(path)) => {
             statistics.first_cost = path.iter().map(|&o| task.operators[o.index()].cost).sum();
-            let affordable = IMPROVEMENT_WORK / graph.size().max(1) as u64;
+            let affordable = IMPROVEMENT_WORK / (graph.size() as u64 + STATE_WORK);
             let effort = options.improvement.unwrap_or(affordable);
             let mut relaxation = Relaxation::on(task, graph, Costs::PlusOne);
             let path = improve::improve(task, &successors, &mut relaxation, path, effort, &mut meter);

@@ -1,11 +1,11 @@
 //! What stands behind a verb besides its objects: particles, complements, places.
 
 use super::super::inflect::VerbForm;
-use super::super::lexicon::{Act, Verb};
+use super::super::lexicon::{Act, Settings, Verb};
 use super::super::syntax::{
     Clause, Head, Phrase, Place, Relation, is_determiner, is_function_word, preposition,
 };
-use super::{Parser, is_going};
+use super::Parser;
 
 impl<'a> Parser<'a> {
     /// "turn the lamp on", "put it away", "put it back".
@@ -67,36 +67,69 @@ impl<'a> Parser<'a> {
         true
     }
 
+    /// "put the wine in the fridge to cool": what it is put there for.
+    pub(super) fn purpose(&mut self, clause: &mut Clause<'a>) -> bool {
+        if self.peek() != Some("to") || !places_something(clause) {
+            return false;
+        }
+        let Some(word) = self.word_at(1) else { return false };
+        let particle = usize::from(matches!(self.word_at(2), Some("up" | "down" | "off")));
+        let length = 2 + particle;
+        let ends = self
+            .word_at(length)
+            .is_none_or(|next| [",", ".", "and", "then"].contains(&next) || preposition(&[next]).is_some());
+        let verbs = self.lexicon.verbs(word);
+        let found = verbs.iter().find(|(form, particles, verb)| {
+            *form == VerbForm::Base && particles.is_empty() && matches!(verb.act, Act::Chill | Act::Heat)
+        });
+        match found {
+            Some((_, _, verb)) if ends => {
+                for phrase in &mut clause.objects {
+                    phrase.states.extend(verb.set.clone());
+                }
+                self.position += length;
+                true
+            }
+            _ => false,
+        }
+    }
+
     /// "the fridge should contain the milk": it is to be put there.
     pub(super) fn contents_told(&mut self, clause: &mut Clause<'a>) -> bool {
         let [vessel] = clause.objects.as_slice() else { return false };
         let takes = matches!(&vessel.head, Head::Noun(noun) if self.has_affordance(noun, "receptacle"));
         let length = usize::from(matches!(self.peek(), Some("should" | "must" | "shall" | "to")));
-        if !takes || !matches!(self.word_at(length), Some("contain" | "contains" | "hold" | "holds")) {
+        let holds = matches!(self.word_at(length), Some("contain" | "contains" | "hold" | "holds"));
+        // "the kettle needs water", "has water in it"
+        let has = matches!(self.word_at(length), Some("has" | "have" | "needs" | "need" | "gets" | "get"));
+        if !takes || !holds && !has {
             return false;
         }
         let start = self.position;
         self.position += length + 1;
+        self.position += usize::from(has && self.peek() == Some("to") && self.word_at(1) == Some("have")) * 2;
         let things = self.phrases(0);
-        if things.is_empty() {
+        let liquid = things.first().and_then(Phrase::liquid);
+        if let Some(liquid) = liquid {
+            clause.complement.extend(super::super::mention::filled(liquid));
+            let _ = self.skip_back_reference();
+            return true;
+        }
+        if things.is_empty() || has {
             self.position = start;
             return false;
         }
-        if let Some(liquid) = things[0].liquid() {
-            clause.complement.extend(super::super::mention::filled(liquid));
-            return true;
-        }
         clause.places = vec![Place::new(Relation::In, "in", vessel.clone())];
         clause.objects = things;
-        clause.verbs = self
-            .lexicon
-            .verbs("put")
-            .into_iter()
-            .filter(|(_, p, _)| p.is_empty())
-            .map(|(_, _, v)| v)
-            .collect();
+        clause.verbs = self.putting();
         clause.verb_text = "put".to_owned();
         true
+    }
+
+    /// The verb of what is to be put somewhere, where no verb says so.
+    pub(super) fn putting(&self) -> Vec<&'a Verb> {
+        let put = self.lexicon.verbs("put").into_iter();
+        put.filter(|(_, p, verb)| p.is_empty() && verb.act == Act::Place).map(|(_, _, verb)| verb).collect()
     }
 
     /// "put it where it belongs": more than one word behind the object.
@@ -140,6 +173,8 @@ impl<'a> Parser<'a> {
                     | "was"
                     | "get"
                     | "gets"
+                    | "becomes"
+                    | "become"
                     | "all"
                     | "to"
                     | "should"
@@ -153,8 +188,16 @@ impl<'a> Parser<'a> {
             }
             self.position += 1;
         }
+        // "the lights go off"
+        let goes = matches!(self.peek(), Some("go" | "goes" | "come" | "comes"))
+            && matches!(self.word_at(1), Some("on" | "off" | "out"))
+            && self.word_at(2).is_none_or(|next| [",", ".", "and", "then", "again"].contains(&next));
+        self.position += usize::from(goes);
         let negated = self.peek() == Some("not");
         self.position += usize::from(negated);
+        while negated && matches!(self.peek(), Some("be" | "stay" | "remain" | "left" | "kept" | "still")) {
+            self.position += 1;
+        }
         let rest = self.rest();
         for length in (1..=2.min(rest.len())).rev() {
             let Some(adjective) = self.lexicon.adjective(&rest[..length]) else { continue };
@@ -162,7 +205,9 @@ impl<'a> Parser<'a> {
             let ends = behind.is_none_or(|next| {
                 [",", ".", "and", "then", "before", "after", "while", "but", "so", "again", "please"]
                     .contains(next)
+                    || ["when", "once", "if", "until", "as", "at"].contains(next)
                     || preposition(&[next]).is_some() && self.position > start
+                    || self.position > start && self.ahead(length).clause_starts_here(false)
                     || *next == "of" && rest[..length] == ["full"]
                     || self.lexicon.longest_small("polite", &rest[length..]).is_some_and(|length| length > 1)
             });
@@ -171,12 +216,20 @@ impl<'a> Parser<'a> {
                 || (particle
                     && !(clause.verbs.is_empty()
                         && clause.unknown.is_empty()
-                        && behind.is_none_or(|b| [",", ".", "and", "please"].contains(b)))
+                        && behind.is_none_or(|b| {
+                            [",", ".", "and", "please", "when", "once", "if", "until", "at"].contains(b)
+                        }))
                     && clause.verbs.iter().all(|verb| verb.act != Act::Keep && verb.act != Act::Place))
             {
                 continue;
             }
-            for (property, value) in &adjective.set {
+            // "it is cooked" is said of what was done; "a cooked potato" is first of all a hot one.
+            let cooked = Settings::from([("isCooked".to_owned(), super::super::yes())]);
+            let is_cooking = |(form, _, verb): &(VerbForm, &[String], &Verb)| {
+                *form == VerbForm::Past && verb.act == Act::Cook
+            };
+            let done = self.lexicon.verbs(rest[0]).iter().any(is_cooking);
+            for (property, value) in if done { &cooked } else { &adjective.set } {
                 let value = if negated { super::super::opposite(value) } else { value.clone() };
                 clause.complement.insert(property.clone(), value);
             }
@@ -222,7 +275,7 @@ impl<'a> Parser<'a> {
         true
     }
 
-    fn place_length(&self) -> Option<usize> {
+    pub(super) fn place_length(&self) -> Option<usize> {
         preposition(&self.rest()).map(|(_, length)| length)
     }
 
@@ -254,6 +307,14 @@ impl<'a> Parser<'a> {
         }
         let Some(word) = ahead.peek() else { return false };
         let behind = rest.get(1..).unwrap_or_default();
+        let kept_there = ["kept", "left"].contains(&word) && ahead.ahead(1).place_length().is_some();
+        if kept_there {
+            clause.verbs = self.putting();
+            clause.verb_text = "put".to_owned();
+            self.wants_place = true;
+            self.position += length + 1;
+            return true;
+        }
         let changes = |verb: &Verb| !matches!(verb.act, Act::Keep | Act::Go | Act::Use | Act::Hold);
         let found: Vec<_> = self
             .lexicon
@@ -281,166 +342,31 @@ impl<'a> Parser<'a> {
         if !clause.verbs.is_empty() || !matches!(self.peek(), Some("needs" | "need" | "requires")) {
             return false;
         }
-        let Some(word) = self.word_at(1) else { return false };
-        let doing = |(form, particles, _): &(VerbForm, &[String], &Verb)| {
-            *form == VerbForm::Gerund && particles.is_empty()
+        // "needs a (good) wash"
+        let article = usize::from(self.word_at(1) == Some("a"));
+        let good = usize::from(
+            article == 1
+                && self.word_at(2).is_some_and(|w| ["good", "quick", "proper", "thorough"].contains(&w)),
+        );
+        let at = 1 + article + good;
+        let Some(word) = self.word_at(at) else { return false };
+        let wanted = if article == 1 { VerbForm::Base } else { VerbForm::Gerund };
+        let doing = |(form, particles, verb): &(VerbForm, &[String], &Verb)| {
+            *form == wanted && particles.is_empty() && !matches!(verb.act, Act::Place | Act::Go)
         };
         clause.verbs = self.lexicon.verbs(word).into_iter().filter(doing).map(|(_, _, verb)| verb).collect();
         if clause.verbs.is_empty() {
             return false;
         }
         clause.verb_text = word.to_owned();
-        self.position += 2;
+        self.position += at + 1;
         true
-    }
-
-    /// A prepositional phrase.
-    pub(super) fn place(&mut self, clause: &mut Clause<'a>) -> bool {
-        if let Some(phrase) = self.somewhere() {
-            clause.places.push(Place::new(Relation::In, "in", phrase));
-            return true;
-        }
-        let Some((relation, length)) = preposition(&self.rest()) else { return false };
-        let start = self.position;
-        self.position += length;
-        if self.another_such(clause, relation) {
-            return true;
-        }
-        let Some(phrase) = self.phrase(0) else {
-            // A preposition with nothing behind it is an adverb: "with a spoon inside"; or what it is in was
-            // spoken of before: "put the tomato in".
-            self.position = start + length;
-            let ends = self.peek().is_none_or(|word| [".", ",", "and"].contains(&word));
-            if ends
-                && self.wants_place
-                && clause.places.is_empty()
-                && matches!(self.words[start].as_str(), "in" | "inside")
-            {
-                let it = Phrase::bare(Head::Pronoun { plural: false }, "it");
-                clause.places.push(Place::new(Relation::In, "in", it));
-            }
-            return true;
-        };
-        if self.put_in_what(clause, relation, &phrase, start) {
-            return true;
-        }
-        // "a mug in the sink with a spoon in it": the spoon is in the mug.
-        if relation == Relation::With
-            && self.skip_back_reference()
-            && let Some(object) = clause.objects.last_mut()
-        {
-            object.with.push(phrase);
-            return true;
-        }
-        let mut phrase = phrase;
-        if let (false, Some(object)) = (phrase.except.is_empty(), clause.objects.last_mut()) {
-            object.except.append(&mut phrase.except);
-        }
-        let said = self.text_between(start, start + length);
-        self.last_place = Some(phrase.clone());
-        clause.places.push(Place::new(relation, &said, phrase));
-        self.more_places(clause, relation);
-        true
-    }
-
-    /// "open the fridge and put in the apple": the apple goes into what was spoken of.
-    fn put_in_what(&self, clause: &mut Clause<'a>, relation: Relation, what: &Phrase, start: usize) -> bool {
-        let vessel = matches!(&what.head, Head::Noun(noun) if self.has_affordance(noun, "receptacle"));
-        let ends = self.peek().is_none_or(|word| [".", ",", "and", "then"].contains(&word));
-        let inward = relation == Relation::In && matches!(self.words[start].as_str(), "in" | "inside");
-        if !(self.wants_place && inward && ends && clause.objects.is_empty() && clause.places.is_empty())
-            || vessel
-            || !self.is_movable(what)
-        {
-            return false;
-        }
-        clause.objects.push(what.clone());
-        let it = Phrase::bare(Head::Pronoun { plural: false }, "it");
-        clause.places.push(Place::new(Relation::In, "in", it));
-        true
-    }
-
-    /// "from one table to another (one)": the noun was said with "from".
-    fn another_such(&mut self, clause: &mut Clause<'a>, relation: Relation) -> bool {
-        let length = match (self.peek(), self.word_at(1)) {
-            (Some("another"), Some("one")) => 2,
-            (Some("another"), next)
-                if self.longest_noun_at(self.position + 1).is_none() && next != Some("of") =>
-            {
-                1
-            }
-            (Some("the"), Some("other")) if self.longest_noun_at(self.position + 2).is_none() => 2,
-            _ => return false,
-        };
-        let from = clause.places.iter().find(|place| place.relation == Relation::From);
-        let from = from.or(clause.places.first()).map(|place| &place.phrase);
-        let Some(mut phrase) = from.or(self.last_place.as_ref()).cloned() else { return false };
-        phrase.other = true;
-        (phrase.definite, phrase.indefinite) = (false, true);
-        clause.places.push(Place::new(relation, "to", phrase));
-        self.position += length;
-        true
-    }
-
-    /// "in the fridge and the microwave": more of the same, unless a clause or another object follows.
-    pub(super) fn more_places(&mut self, clause: &mut Clause<'a>, relation: Relation) {
-        loop {
-            let start = self.position;
-            if !self.skip_joins() || self.clause_starts_here(false) || preposition(&self.rest()).is_some() {
-                self.position = start;
-                return;
-            }
-            let Some(phrase) = self.phrase(0) else {
-                self.position = start;
-                return;
-            };
-            let mut behind = self.ahead(0);
-            if behind.skip_joins() {
-                behind.phrases(0);
-            }
-            behind.position += usize::from(behind.peek().is_some_and(is_going));
-            let goes_elsewhere = preposition(&behind.rest())
-                .is_some_and(|(other, _)| other != Relation::From && other != Relation::With);
-            let another_pair = relation != Relation::From
-                && (goes_elsewhere || preposition(&self.rest()).is_some())
-                || matches!(self.peek(), Some("on" | "off" | "should" | "must" | "is" | "are" | "needs"));
-            if another_pair {
-                self.position = start;
-                return;
-            }
-            let movable = self.is_movable(&phrase);
-            if movable && relation != Relation::With {
-                clause.objects.push(phrase);
-            } else {
-                clause.places.push(Place::new(relation, "", phrase));
-            }
-        }
     }
 
     pub(super) fn is_movable(&self, phrase: &Phrase) -> bool {
         match &phrase.head {
             Head::Noun(noun) => self.has_affordance(noun, "pickupable"),
             _ => false,
-        }
-    }
-
-    /// "with a card in hand, turn on the lamp": places said before the verb.
-    pub(super) fn leading_places(&mut self, clause: &mut Clause<'a>) {
-        let start = self.position;
-        while let Some((relation, length)) = preposition(&self.rest()) {
-            if matches!(relation, Relation::To | Relation::For) || self.verbs_here().is_some() {
-                break;
-            }
-            self.position += length;
-            let Some(phrase) = self.phrase(0) else { break };
-            clause.places.push(Place::new(relation, "", phrase));
-        }
-        if self.peek() == Some(",") {
-            self.position += 1;
-        }
-        if self.verbs_here().is_none() {
-            clause.places.clear();
-            self.position = start;
         }
     }
 
@@ -464,4 +390,9 @@ impl<'a> Parser<'a> {
             self.position += 1;
         }
     }
+}
+
+/// Whether a clause puts something somewhere, as far as it is read.
+fn places_something(clause: &Clause<'_>) -> bool {
+    !clause.objects.is_empty() && clause.verbs.iter().any(|verb| verb.act == Act::Place)
 }

@@ -2,7 +2,7 @@
 
 use super::super::lexicon::Act;
 use super::super::syntax::{Clause, Head, Phrase, Place, Relation, preposition};
-use super::Parser;
+use super::{Parser, is_going};
 
 impl<'a> Parser<'a> {
     /// `robot2`, `robot 2`: who is spoken to.
@@ -102,7 +102,18 @@ impl<'a> Parser<'a> {
 
     /// "put the tomato there", "in there": the receptacle spoken of last.
     pub(super) fn there(&mut self, clause: &mut Clause<'a>) -> bool {
-        let places = clause.verbs.iter().any(|verb| verb.act == Act::Place);
+        // "that there is water in the pot"
+        let that = usize::from(self.peek() == Some("that"));
+        let is = |word: &str| ["is", "are", "be", "should", "must", "has", "have", "to"].contains(&word);
+        if self.word_at(that) == Some("there") && self.word_at(that + 1).is_some_and(is) {
+            self.position += that + 1;
+            while self.peek().is_some_and(is) {
+                self.position += 1;
+            }
+            return true;
+        }
+        let places = clause.verbs.iter().any(|verb| verb.act == Act::Place)
+            || clause.verbs.is_empty() && clause.unknown.iter().any(|word| is_going(word));
         let length = preposition(&self.rest())
             .filter(|(relation, _)| matches!(relation, Relation::In | Relation::To))
             .map_or(0, |(_, length)| length);

@@ -2,7 +2,7 @@
 
 use super::super::inflect::VerbForm;
 use super::super::lexicon::Act;
-use super::super::syntax::{Link, preposition};
+use super::super::syntax::{Link, Relation, preposition};
 use super::Parser;
 
 /// What opens a clause.
@@ -32,9 +32,15 @@ impl Parser<'_> {
             before_previous: false,
         };
         while let Some(word) = self.peek() {
+            if let Some((link, length)) = self.done_or_under_way() {
+                opening.link = link;
+                self.position += length;
+                continue;
+            }
             let rest = self.rest();
             if let Some(length) = self.lexicon.longest_small("sequence", &rest)
                 && !(length == 1 && self.longest_noun().is_some())
+                && !(word == "next" && preposition(&rest).is_some())
             {
                 opening.link = Link::Then;
                 self.position += length;
@@ -56,15 +62,22 @@ impl Parser<'_> {
                 opening.robots.push(robot);
                 continue;
             }
+            if let Some(length) = self.somebody() {
+                self.position += length;
+                continue;
+            }
             if self.reason() {
                 continue;
             }
             opening.sentence |= word == ".";
             match word {
                 "let" if self.ahead(1).verbs_here().is_some() => {}
+                "have" | "has" | "had" if self.perfect_follows() => {}
                 "go" | "come" if self.another_verb_follows() => {}
                 "should" | "shall" | "must" | "can" | "has" | "will" if !opening.robots.is_empty() => {}
                 "have" | "let" if self.ahead(1).robot().is_some() => {}
+                "that" if self.word_at(1).is_some_and(super::super::syntax::is_determiner) => {}
+                "that" if matches!(self.word_at(1), Some("it" | "they")) => {}
                 "if" => {
                     opening.condition = true;
                     opening.before_previous = !first && !self.is_fronted();
@@ -108,12 +121,31 @@ impl Parser<'_> {
     /// "with the lights off": a state that is to hold.
     pub(super) fn state_follows(&self) -> bool {
         let mut ahead = self.ahead(1);
-        if self.peek() != Some("with") || ahead.phrases(0).is_empty() {
+        let things = if self.peek() == Some("with") { ahead.phrases(0) } else { Vec::new() };
+        if things.is_empty() {
             return false;
         }
-        let state = ahead.peek().and_then(|word| self.lexicon.adjective(&[word]));
-        let ends = ahead.word_at(1).is_none_or(|word| [",", ".", "and", "at", "afterwards"].contains(&word));
-        ends && state.is_some_and(|state| state.set.keys().any(|p| p == "isOpen" || p == "isToggled"))
+        // "with water in the cup": to be so.
+        let beside = preposition(&ahead.rest()).is_some_and(|(relation, length)| {
+            relation == Relation::Near && matches!(ahead.word_at(length), Some("it" | "them" | "that"))
+        });
+        if beside {
+            return true;
+        }
+        let poured = things.iter().all(|phrase| phrase.liquid().is_some())
+            && preposition(&ahead.rest()).is_some_and(|(relation, _)| relation == Relation::In)
+            && ahead.word_at(1) != Some("it");
+        if poured {
+            return true;
+        }
+        let rest = ahead.rest();
+        let told = (1..=3.min(rest.len())).rev().find_map(|n| Some((self.lexicon.adjective(&rest[..n])?, n)));
+        let (state, length) = told.map_or((None, 1), |(state, length)| (Some(state), length));
+        let ends =
+            ahead.word_at(length).is_none_or(|word| [",", ".", "and", "at", "afterwards"].contains(&word));
+        let told = ["isOpen", "isToggled", "isFilledWithLiquid"];
+        (ends || ahead.peek() == Some("full"))
+            && state.is_some_and(|state| state.set.keys().any(|p| told.contains(&p.as_str())))
     }
 
     /// "… so (that) you can put it on the table": an order after all; how many words stand before its verb.
@@ -125,6 +157,105 @@ impl Parser<'_> {
             |verbs: &[&super::super::lexicon::Verb]| verbs.iter().any(|verb| verb.act == Act::Place);
         let puts = self.ahead(person + 2).verbs_here().is_some_and(|(_, verbs, _)| placing(&verbs));
         (can && puts).then_some(person + 2)
+    }
+
+    /// "once you have washed the fork": what is done, not a wish.
+    fn perfect_follows(&self) -> bool {
+        let person = self.position.checked_sub(1).and_then(|at| self.words.get(at));
+        person.is_some_and(|word| {
+            ["you", "we", "i", "they", "robot", "somebody", "one"].contains(&word.as_str())
+        }) && self.ahead(1).verbs_here().is_some_and(|(form, _, _)| form == VerbForm::Past)
+            && self.word_at(2).is_some()
+    }
+
+    /// "when all of that is done", "while this is going on": only the order, whatever the words.
+    fn done_or_under_way(&self) -> Option<(Link, usize)> {
+        const JOINS: [&str; 8] = ["when", "once", "after", "while", "whilst", "as", "until", "soon"];
+        const WHAT: [&str; 13] = [
+            "that",
+            "this",
+            "it",
+            "everything",
+            "all",
+            "of",
+            "they",
+            "these",
+            "those",
+            "things",
+            "thats",
+            "its",
+            "else",
+        ];
+        const AUXILIARIES: [&str; 11] =
+            ["is", "are", "has", "have", "been", "gets", "being", "s", "will", "be", "finally"];
+        const DONE: [&str; 8] =
+            ["done", "finished", "complete", "completed", "over", "ready", "settled", "through"];
+        const UNDER_WAY: [&str; 7] =
+            ["going", "happening", "running", "underway", "progress", "cooking", "heating"];
+        let run = |from: usize, words: &[&str]| {
+            (from..).take_while(|&at| self.word_at(at).is_some_and(|word| words.contains(&word))).count()
+        };
+        let joins = run(0, &JOINS);
+        let what = run(joins, &WHAT);
+        let auxiliaries = run(joins + what, &AUXILIARIES);
+        let contracted = self.word_at(joins) == Some("thats") || self.word_at(joins) == Some("its");
+        if joins == 0 || what == 0 || auxiliaries == 0 && !contracted {
+            return None;
+        }
+        let at = joins + what + auxiliaries;
+        let word = self.word_at(at)?;
+        let length = at + 1;
+        if DONE.contains(&word) {
+            return Some((Link::Then, length));
+        }
+        let particle = matches!(self.word_at(length), Some("on"));
+        let under_way = word == "under" && self.word_at(length) == Some("way")
+            || word == "in" && self.word_at(length) == Some("progress");
+        (UNDER_WAY.contains(&word) || under_way)
+            .then_some((Link::While, length + usize::from(particle || under_way)))
+    }
+
+    /// "(while) another slices the bread", "the other one washes …": somebody does it, and no matter who.
+    fn somebody(&self) -> Option<usize> {
+        const WHO: [&[&str]; 12] = [
+            &["the", "first"],
+            &["the", "second"],
+            &["the", "third"],
+            &["the", "rest"],
+            &["somebody"],
+            &["the", "other", "one"],
+            &["the", "other"],
+            &["the", "others"],
+            &["another", "one"],
+            &["another"],
+            &["others"],
+            &["one"],
+        ];
+        let rest = self.rest();
+        WHO.iter().find(|who| rest.starts_with(who)).map(|who| who.len()).filter(|&length| {
+            let behind = self.ahead(length);
+            let word = behind.peek().unwrap_or_default();
+            let does = word.ends_with('s') || ["should", "can", "will", "must"].contains(&word);
+            does && behind.verbs_here().is_some()
+                && !["goes", "belongs", "is"].contains(&word)
+                && behind.word_at(1).is_some_and(|next| {
+                    super::super::syntax::is_determiner(next)
+                        || ["it", "them", "on", "off"].contains(&next)
+                        || behind.ahead(1).verbs_here().is_some()
+                })
+        })
+    }
+
+    /// "so that it gets cold": a state that is wished for.
+    fn so_that_it_is(&self) -> bool {
+        let at = 1 + usize::from(self.word_at(1) == Some("that"));
+        let it = matches!(self.word_at(at), Some("it" | "they"));
+        let gets = matches!(
+            self.word_at(at + 1),
+            Some("is" | "are" | "gets" | "get" | "stays" | "stay" | "becomes" | "become")
+        );
+        let state = self.word_at(at + 2).and_then(|word| self.lexicon.adjective(&[word]));
+        it && gets && state.is_some()
     }
 
     /// "go turn on the lamp": the going says nothing.
@@ -139,8 +270,8 @@ impl Parser<'_> {
 
     /// "… . Once it is clean, put it away": what is said first is done first.
     fn is_fronted(&self) -> bool {
-        let before = self.position.checked_sub(1).and_then(|at| self.words.get(at));
-        before.is_some_and(|word| word == "." || word == "and")
+        let before = self.words[..self.position].iter().rev().find(|word| *word != ",");
+        before.is_some_and(|word| [".", "and", "then", "but"].contains(&word.as_str()))
     }
 
     /// "so I can see", "because it is late": passes over why.
@@ -148,11 +279,12 @@ impl Parser<'_> {
         const PERSONS: [&str; 10] =
             ["i", "we", "you", "he", "she", "they", "it", "that", "nobody", "everyone"];
         let why = match self.peek() {
-            Some("because") => true,
+            Some("because" | "until") => true,
             Some("so") if self.so_you_can_put().is_some() => {
                 self.position += self.so_you_can_put().unwrap_or(0);
                 return true;
             }
+            Some("so") if self.so_that_it_is() => return false,
             Some("so" | "since") => self.word_at(1).is_some_and(|word| PERSONS.contains(&word)),
             _ => false,
         };

@@ -37,9 +37,13 @@ impl<'a> Parser<'a> {
             .take(8)
             .take_while(|word| ![".", ",", "then", "if"].contains(word))
             .collect();
-        let (form, particles, _) = candidates
-            .iter()
-            .find(|(_, particles, _)| particles.len() == 1 && behind.contains(&particles[0].as_str()))?;
+        let stands = |particles: &[String]| match particles {
+            [particle] => behind.iter().position(|word| word == particle),
+            _ => None,
+        };
+        // "switch the kettle on and the lights off": the nearest is the verb's.
+        let nearest = candidates.iter().filter(|(_, particles, _)| stands(particles).is_some());
+        let (form, particles, _) = nearest.min_by_key(|(_, particles, _)| stands(particles))?;
         let verbs =
             candidates.iter().filter(|(_, other, _)| other == particles).map(|(_, _, verb)| *verb).collect();
         Some((*form, verbs, 1))
@@ -80,8 +84,12 @@ impl<'a> Parser<'a> {
         {
             return true;
         }
+        if word == "that" && self.word_at(1).is_some_and(|next| is_determiner(next) && next != "one") {
+            return true;
+        }
         let rest = self.rest();
-        let negation = word == "never" || rest.starts_with(&["do", "not"]);
+        let negation =
+            word == "never" || rest.starts_with(&["do", "not"]) || rest.starts_with(&["do", "the", "same"]);
         if negation
             || self.robot_opens()
             || self.lexicon.longest_small("sequence", &rest).is_some()

@@ -133,7 +133,8 @@ impl<'a> Interpreter<'_, 'a> {
         let vessels: Vec<Phrase> =
             clause.objects.iter().filter(|phrase| phrase.liquid().is_none()).cloned().collect();
         let mut fill = clause.clone();
-        if verb.act == Act::Pour || vessels.is_empty() {
+        let poured = verb.act == Act::Pour && (vessels.is_empty() || clause.places.iter().any(into));
+        if poured || vessels.is_empty() {
             fill.objects = clause
                 .places
                 .iter()
@@ -159,7 +160,9 @@ impl<'a> Interpreter<'_, 'a> {
             self.add(entity, Change::State("isFilledWithLiquid".to_owned(), super::super::yes()));
             self.add(entity, Change::State("fillLiquid".to_owned(), PropertyValue::Word(liquid.clone())));
         }
-        Spoken { objects, ..Spoken::default() }
+        let from = clause.places.iter().filter(|place| place.relation == Relation::From);
+        let reached = self.places_spoken_of(&from.cloned().collect::<Vec<_>>());
+        Spoken { objects, reached, ..Spoken::default() }
     }
 
     pub(super) fn empty(&mut self, clause: &Clause<'a>) -> Spoken {

@@ -21,6 +21,11 @@ impl<'a> Interpreter<'_, 'a> {
             spoken.places.extend(lamps);
             return spoken;
         }
+        if let Some(goal) = clause.places.iter().rposition(|place| self.is_got_into(clause, place)) {
+            let mut at = clause.places.clone();
+            let to = at.remove(goal);
+            return self.put(clause, &at, &to);
+        }
         let by_light =
             |place: &Place| is_lamp(&place.phrase) && (place.under || place.relation == Relation::With);
         if clause.places.iter().any(by_light) {
@@ -36,6 +41,27 @@ impl<'a> Interpreter<'_, 'a> {
         self.take(&objects);
         let places = self.places_spoken_of(&clause.places);
         Spoken { objects, places, placed: false, ..Spoken::default() }
+    }
+
+    /// "get the milk in the fridge": it is to be put there, where the scene knows that it lies elsewhere.
+    fn is_got_into(&self, clause: &Clause<'a>, place: &Place) -> bool {
+        let (Head::Noun(home), [phrase]) = (&place.phrase.head, clause.objects.as_slice()) else {
+            return false;
+        };
+        let Head::Noun(thing) = &phrase.head else { return false };
+        let scene = self.discourse.scene;
+        let lies_elsewhere = |kind: &String| {
+            let objects = scene.of_kind(kind);
+            !objects.is_empty()
+                && objects.iter().all(|object| {
+                    !object.parents.is_empty()
+                        && !scene.lies_in(object, &|parent| home.kinds.contains(&parent.kind))
+                })
+        };
+        clause.verb_text == "get"
+            && place.relation == Relation::In
+            && home.kinds.iter().any(|kind| scene.affords(kind, "receptacle"))
+            && thing.kinds.iter().find(|kind| scene.has(kind)).is_some_and(lies_elsewhere)
     }
 
     pub(super) fn take(&mut self, objects: &[usize]) {

@@ -2,6 +2,7 @@
 
 use super::super::lexicon::{Act, Verb};
 use super::super::mention::Spoken;
+use super::super::phrase::is_one_of;
 use super::super::syntax::{Clause, Head, Link, Phrase, Place, Relation};
 use super::{Change, Interpreter};
 
@@ -17,6 +18,9 @@ impl<'a> Interpreter<'_, 'a> {
         if let Some(laid) = self.laid_with(clause) {
             return self.place(&laid, verb, next);
         }
+        if let Some(joined) = self.joined_with(clause) {
+            return self.place(&joined, verb, next);
+        }
         let (goal, inner, at) = self.sort_places(clause);
         if let Some(goal) = goal {
             if let Some(inner) = inner {
@@ -28,7 +32,13 @@ impl<'a> Interpreter<'_, 'a> {
             return self.put(clause, &at, &goal);
         }
         let meanwhile = clause.link == Link::While && self.lamp_wanted && self.switches_on;
-        if let Some(near) = clause.places.iter().find(|place| place.relation == Relation::Near)
+        // "put the fork with the plate": where that is.
+        let near = |place: &&Place| match place.relation {
+            Relation::Near => true,
+            Relation::With => matches!(place.phrase.head, Head::Pronoun { .. }),
+            _ => false,
+        };
+        if let Some(near) = clause.places.iter().find(near)
             && verb.act == Act::Place
             && !meanwhile
         {
@@ -62,7 +72,7 @@ impl<'a> Interpreter<'_, 'a> {
             let kind = self.discourse.entities[entity].kind().to_owned();
             let home = match (verb.act, clause.back) {
                 (_, true) => self.where_it_was(entity),
-                (Act::Store, _) => self.home_of(&kind),
+                (Act::Store, _) => self.home_of(&kind, &at),
                 (Act::Discard, _) => homes.iter().find(|home| self.discourse.scene.has(home)).cloned(),
                 _ => homes.iter().find(|home| self.discourse.scene.accepts(home, &kind)).cloned(),
             };
@@ -97,6 +107,25 @@ impl<'a> Interpreter<'_, 'a> {
                     if noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle")))
         };
         goal.phrase.at.iter().find(takes).filter(|_| vessel).cloned()
+    }
+
+    /// "lay the paper with the book on the table": both go there.
+    fn joined_with(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
+        let goes = |place: &Place| matches!(place.relation, Relation::In | Relation::To);
+        let with = |place: &&Place| place.relation == Relation::With && self.is_movable(&place.phrase);
+        let things: Vec<Phrase> =
+            clause.places.iter().filter(with).map(|place| place.phrase.clone()).collect();
+        // One thing named behind the place may stand there already: "on the desk with the laptop".
+        let before = clause.places.first().is_some_and(|place| with(&place));
+        let joins = !clause.objects.is_empty()
+            && clause.places.iter().any(goes)
+            && (before && !things.is_empty() || things.len() > 1);
+        joins.then(|| {
+            let mut joined = clause.clone();
+            joined.places.retain(|place| !with(&place));
+            joined.objects.extend(things);
+            joined
+        })
     }
 
     /// "set the table with a plate and a fork": the plate and the fork go on the table.
@@ -305,6 +334,16 @@ impl<'a> Interpreter<'_, 'a> {
             }
             return Spoken { objects, places: vec![place], placed: true, ..Spoken::default() };
         }
+        // What it is put next to may have been put somewhere itself.
+        let stands = mentioned.first().and_then(|&e| {
+            self.facts.iter().rev().find_map(|fact| match fact.change {
+                Change::Inside(place) if fact.entity == e => {
+                    Some(self.discourse.entities[place].kind().to_owned())
+                }
+                _ => None,
+            })
+        });
+        let stands = stands.filter(|kind| scene.accepts(kind, &thing));
         let under =
             reference.as_deref().filter(|_| near.under).and_then(|kind| self.discourse.lexicon.under(kind));
         let stands_on = reference.as_deref().and_then(|kind| {
@@ -318,6 +357,7 @@ impl<'a> Interpreter<'_, 'a> {
         let kinds = self.discourse.entities[first].kinds.clone();
         let chosen = under
             .filter(|place| kinds.iter().any(|kind| scene.accepts(place, kind)))
+            .or(stands.as_deref())
             .or(stands_on)
             .or(likely)
             .map(str::to_owned);
@@ -334,9 +374,18 @@ impl<'a> Interpreter<'_, 'a> {
         Spoken { objects, places: vec![place], placed: true, ..Spoken::default() }
     }
 
-    fn home_of(&self, kind: &str) -> Option<String> {
+    /// Where things of a type are kept, other than where it comes from.
+    fn home_of(&self, kind: &str, from: &[Place]) -> Option<String> {
         let scene = self.discourse.scene;
-        self.discourse.lexicon.homes(kind).find(|home| scene.accepts(home, kind)).map(str::to_owned)
+        let left = |home: &str| {
+            let of = |place: &Place| {
+                place.relation == Relation::From
+                    && matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| kind == home))
+            };
+            from.iter().any(of)
+        };
+        let mut homes = self.discourse.lexicon.homes(kind).filter(|home| scene.accepts(home, kind));
+        homes.find(|home| !left(home)).map(str::to_owned)
     }
 
     /// The type of what a thing was said to be in, or lies in now.
@@ -353,15 +402,5 @@ impl<'a> Interpreter<'_, 'a> {
             .filter_map(|parent| scene.named(parent))
             .map(|parent| parent.kind.clone())
             .next()
-    }
-}
-
-/// "the food: the apple goes …": whether one phrase names a member of another's class.
-fn is_one_of(phrase: &Phrase, class: &Phrase) -> bool {
-    match (&phrase.head, &class.head) {
-        (Head::Noun(one), Head::Noun(class)) => {
-            class.class && one.kinds.iter().any(|kind| class.kinds.contains(kind))
-        }
-        _ => false,
     }
 }

@@ -1,6 +1,6 @@
 //! What a thing can be: types that go together, states it can take, what switches it.
 
-use super::super::lexicon::Settings;
+use super::super::lexicon::{Settings, squash};
 use super::{Discourse, Which};
 
 impl Discourse<'_> {
@@ -42,10 +42,13 @@ impl Discourse<'_> {
     /// What a receptacle is called counts for more: "a knife in a cup" is a small knife rather than a mug.
     pub fn fit(&mut self, entity: usize, place: usize) {
         let (things, places) = (self.entities[entity].kinds.clone(), self.entities[place].kinds.clone());
+        // "cup" is the name of a type, "holder" is not: it says less of which is meant.
+        let named = places.first().is_some_and(|kind| squash(kind) == squash(&self.entities[place].noun));
+        let weight = if named { 3 } else { 1 };
         let mut best: Option<(usize, &str, &str)> = None;
         for (i, thing) in things.iter().enumerate() {
             for (j, place) in places.iter().enumerate() {
-                let rank = 2 * i + 3 * j + if self.scene.surely_accepts(place, thing) { 0 } else { 3 };
+                let rank = 2 * i + weight * j + if self.scene.surely_accepts(place, thing) { 0 } else { 3 };
                 if self.scene.accepts(place, thing) && best.is_none_or(|(known, _, _)| rank < known) {
                     best = Some((rank, thing, place));
                 }
@@ -68,10 +71,19 @@ impl Discourse<'_> {
 
     /// Asked-for states, with "cooked" read as "hot" for what nothing can cook.
     pub fn possible_states(&self, entity: usize, states: Settings) -> Settings {
+        let sliced = states.get("isCooked") == Some(&super::super::yes())
+            && self.cooks_in_slices(self.entities[entity].kind());
+        let sliced = sliced.then(|| ("isSliced".to_owned(), super::super::yes()));
         states
             .into_iter()
+            .chain(sliced)
             .map(|(property, value)| {
-                if property == "isCooked" && !self.can_be_cooked(self.entities[entity].kind()) {
+                let kind = self.entities[entity].kind();
+                // A tap is closed by being turned off.
+                let switch = self.scene.affords(kind, "toggleable") && !self.scene.affords(kind, "openable");
+                if property == "isOpen" && switch {
+                    ("isToggled".to_owned(), value)
+                } else if property == "isCooked" && !self.can_be_cooked(self.entities[entity].kind()) {
                     ("temperature".to_owned(), lamma_domains::goal::PropertyValue::Word("Hot".to_owned()))
                 } else {
                     (property, value)

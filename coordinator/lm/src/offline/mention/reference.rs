@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::super::syntax::{Phrase, Place};
+use super::super::syntax::{Phrase, Place, Quantity};
 use super::{Discourse, Which};
 
 impl Discourse<'_> {
@@ -61,6 +61,63 @@ impl Discourse<'_> {
             .collect()
     }
 
+    /// "the former", "the latter": the first or the last of those spoken of together.
+    pub(super) fn one_of_two(&mut self, first: bool) -> Vec<usize> {
+        let group = self.spoken.iter().rev().find(|spoken| spoken.objects.len() > 1);
+        let one = group
+            .and_then(|spoken| if first { spoken.objects.first() } else { spoken.objects.last() })
+            .copied();
+        if one.is_none() {
+            self.problem("it is not said which of them is meant".to_owned(), 0.3);
+        }
+        one.into_iter().collect()
+    }
+
+    /// "put it all on the table": whatever was spoken of and can be carried.
+    pub(super) fn all_of_it(&mut self, wants: Option<&str>) -> Vec<usize> {
+        let last = self.spoken.iter().rev().find(|spoken| !spoken.objects.is_empty());
+        let groups: Vec<&[usize]> = match last {
+            Some(spoken) if spoken.objects.len() > 1 => vec![&spoken.objects],
+            _ => self.spoken.iter().map(|spoken| spoken.objects.as_slice()).collect(),
+        };
+        let able =
+            |entity: &usize| wants.is_none_or(|wants| self.affords(self.entities[*entity].kind(), wants));
+        let mut found: Vec<usize> = groups.concat().into_iter().filter(able).collect();
+        found.sort_unstable();
+        found.dedup();
+        if found.is_empty() {
+            self.problem("it is not said what \"it\" is".to_owned(), 0.3);
+        }
+        found
+    }
+
+    /// "all three", "the other two": so many of those spoken of last, without those spoken of since by themselves.
+    pub(super) fn some_of_them(&mut self, phrase: &Phrase) -> Vec<usize> {
+        let wanted = match phrase.quantity {
+            Quantity::Count(count) => count,
+            _ => usize::MAX,
+        };
+        let mut found: Vec<usize> = Vec::new();
+        let mut singled: BTreeSet<usize> = BTreeSet::new();
+        for spoken in self.spoken.iter().rev() {
+            let group: Vec<usize> = spoken.objects.iter().copied().filter(|e| !found.contains(e)).collect();
+            if phrase.other && group.len() < 2 {
+                singled.extend(group);
+                continue;
+            }
+            found.extend(group.into_iter().filter(|entity| !singled.contains(entity)));
+            if found.len() >= wanted || phrase.other && !found.is_empty() {
+                break;
+            }
+        }
+        found.truncate(wanted);
+        found.sort_unstable();
+        if found.is_empty() || wanted != usize::MAX && found.len() < wanted {
+            self.problem(format!("it is not said what \"{}\" are", phrase.text), 0.3);
+        }
+        found
+    }
+
     pub(super) fn pronoun(&mut self, plural: bool, wants: Option<&str>) -> Vec<usize> {
         let fits = |this: &Self, group: &[usize]| {
             !group.is_empty()
@@ -107,7 +164,7 @@ impl Discourse<'_> {
             }
         }
         for spoken in self.spoken.iter().rev() {
-            let reached = if matches!(wants, Some("receptacle" | "openable")) {
+            let reached = if matches!(wants, Some("receptacle" | "openable" | "toggleable")) {
                 spoken.reached.as_slice()
             } else {
                 &[]
@@ -117,6 +174,20 @@ impl Discourse<'_> {
                     return group.to_vec();
                 }
             }
+        }
+        // "put the mug and the laptop on the desk and open it": what of them can be opened.
+        let of_them = self.spoken.iter().rev().find_map(|spoken| {
+            let named = spoken.objects.iter().chain(&spoken.places).chain(&spoken.reached);
+            let able = named.filter(|&&entity| wants.is_some_and(|_| fits(self, &[entity])));
+            // Of a book and a laptop it is the laptop that one opens.
+            let devices = |&&entity: &&usize| {
+                let kind = self.entities[entity].kind();
+                usize::from(self.affords(kind, "openable")) + usize::from(self.affords(kind, "toggleable"))
+            };
+            able.max_by_key(devices).copied()
+        });
+        if let Some(entity) = of_them.filter(|_| !plural) {
+            return vec![entity];
         }
         let word = if plural { "them" } else { "it" };
         self.problem(format!("it is not said what \"{word}\" is"), 0.3);

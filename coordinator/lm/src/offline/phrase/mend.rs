@@ -1,9 +1,10 @@
 //! What is left out or miswritten in a noun phrase.
 
-use super::super::clause::Parser;
+use super::super::clause::{Parser, is_going};
+use super::super::inflect;
 use super::super::lexicon::Noun;
 use super::super::scene::Scene;
-use super::super::syntax::{Quantity, preposition};
+use super::super::syntax::{Head, Quantity, preposition};
 use super::Front;
 
 impl Parser<'_> {
@@ -45,6 +46,49 @@ impl Parser<'_> {
         true
     }
 
+    /// "two mugs … one … the other (one)", "three books … two … the third": of those that were counted. "the other
+    /// two", "all three" where nothing was counted: of those that were spoken of.
+    pub(super) fn one_of_the_counted(&mut self, word: &str, front: &mut Front) -> Option<Head> {
+        const ORDINALS: [&str; 6] = ["other", "remaining", "second", "third", "last", "first"];
+        let ends = |at: usize| {
+            self.word_at(at).is_none_or(|next| {
+                ",.".contains(next)
+                    || preposition(&[next]).is_some()
+                    || is_going(next)
+                    || ["and", "should", "then", "need", "needs"].contains(&next)
+            })
+        };
+        let number = inflect::number(word);
+        let ones = usize::from(self.word_at(1).is_some_and(|next| ["one", "ones"].contains(&next)));
+        let all = front.quantity == Some(Quantity::All);
+        let length = match word {
+            "another" if ends(1 + ones) => 1 + ones,
+            _ if ORDINALS.contains(&word) && front.phrase.definite && ends(1 + ones) => 1 + ones,
+            _ if number.is_some() && ends(1) => 1,
+            _ => return None,
+        };
+        let other = front.phrase.other || word != "first" && number.is_none();
+        let several = number.filter(|&count| count > 1);
+        let head = match self.counted.as_deref().cloned() {
+            Some(noun) if !all => Head::Noun(noun),
+            _ if several.is_some() && (all || other || front.phrase.definite) => {
+                Head::Pronoun { plural: true }
+            }
+            _ => return None,
+        };
+        self.position += length;
+        front.phrase.other = other;
+        (front.phrase.definite, front.phrase.indefinite) = (false, true);
+        front.quantity = Some(match several {
+            Some(count) => Quantity::Count(count),
+            None if ["remaining", "other"].contains(&word) && self.words[self.position - 1] == "ones" => {
+                Quantity::All
+            }
+            None => Quantity::One,
+        });
+        Some(head)
+    }
+
     /// A verb where a noun is due, a letter away from what the scene has: "put the clean put on the stove".
     pub(super) fn miswritten_noun(&self, word: &str) -> Option<Noun> {
         let letters: Vec<char> = word.chars().collect();
@@ -54,6 +98,14 @@ impl Parser<'_> {
         };
         let meant = self.scene.vocabulary().find(near)?;
         self.lexicon.noun(&[meant]).map(|(noun, _)| noun.clone())
+    }
+
+    /// "put it all on the table"
+    pub(super) fn all_of_it_follows(&self) -> bool {
+        self.word_at(1) == Some("all")
+            && self
+                .word_at(2)
+                .is_none_or(|next| ",.".contains(next) || preposition(&[next]).is_some() || next == "and")
     }
 
     /// "from it's hanger": a possessive, miswritten.

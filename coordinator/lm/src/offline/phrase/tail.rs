@@ -1,7 +1,10 @@
 //! What follows the head of a noun phrase: contents, places, exceptions.
 
+use lamma_domains::goal::PropertyValue;
+
 use super::super::clause::Parser;
-use super::super::lexicon::Noun;
+use super::super::inflect::VerbForm;
+use super::super::lexicon::{Act, Noun, Settings, Verb};
 use super::super::syntax::{Head, Phrase, Place, Quantity, preposition};
 
 impl Parser<'_> {
@@ -46,6 +49,9 @@ impl Parser<'_> {
                     if matches!(self.word_at(1), Some("is" | "are" | "was" | "were")) =>
                 {
                     self.position += 2;
+                    while matches!(self.peek(), Some("still" | "currently" | "now" | "left" | "already")) {
+                        self.position += 1;
+                    }
                     if !self.adjective(phrase) && preposition(&self.rest()).is_none() {
                         self.position = start;
                         return;
@@ -84,6 +90,14 @@ impl Parser<'_> {
                     }
                     phrase.except.extend(self.phrases(depth + 1));
                 }
+                Some("that" | "which" | "who" | "you" | "we" | "i") if self.relative().is_some() => {
+                    self.states_of_relative(phrase);
+                    if phrase.head == Head::Everything {
+                        phrase.head = Head::Pronoun { plural: true };
+                        phrase.quantity = Quantity::One;
+                    }
+                    self.position += self.relative().unwrap_or(0);
+                }
                 Some("other") if self.word_at(1) == Some("than") => {
                     self.position += 2;
                     phrase.except.extend(self.phrases(depth + 1));
@@ -94,6 +108,49 @@ impl Parser<'_> {
                 return;
             }
         }
+    }
+
+    /// "the bread that you heated": it is hot.
+    fn states_of_relative(&self, phrase: &mut Phrase) {
+        let length = self.relative().unwrap_or(0);
+        let verbs = (0..length).filter_map(|at| self.word_at(at)).flat_map(|word| self.lexicon.verbs(word));
+        let treats = |verb: &Verb| matches!(verb.act, Act::Heat | Act::Chill | Act::Cook | Act::Set);
+        let done = verbs.filter(|(form, particles, verb)| {
+            *form == VerbForm::Past && particles.is_empty() && treats(verb) && verb.wants.is_none()
+        });
+        for (_, _, verb) in done.take(1) {
+            let hot = Settings::from([("temperature".to_owned(), PropertyValue::Word("Hot".to_owned()))]);
+            phrase.states.extend(if verb.act == Act::Cook { hot } else { verb.set.clone() });
+        }
+    }
+
+    /// "(the knife) that you used", "(the machine) which makes it": how many words tell what is known of a thing.
+    fn relative(&self) -> Option<usize> {
+        const PERSONS: [&str; 9] = ["you", "we", "i", "they", "he", "she", "someone", "somebody", "ive"];
+        const AUXILIARIES: [&str; 10] =
+            ["have", "has", "had", "just", "will", "did", "already", "been", "be", "were"];
+        let joined = usize::from(matches!(self.peek(), Some("that" | "which" | "who")));
+        let person = usize::from(self.word_at(joined).is_some_and(|word| PERSONS.contains(&word)));
+        let from = joined + person;
+        let auxiliaries =
+            (from..).take_while(|&at| self.word_at(at).is_some_and(|w| AUXILIARIES.contains(&w))).count();
+        let verb = self.ahead(from + auxiliaries);
+        let (form, _, length) = verb.verbs_here()?;
+        let mut end = from + auxiliaries + length;
+        if person == 1 {
+            // "the knife you washed the apple with" says more than is read; "the knife you used" does not.
+            let past = self.word_at(from).is_some_and(|word| ["cut", "put", "set"].contains(&word));
+            let done = form == VerbForm::Past || auxiliaries > 0 || past;
+            let stranded = self.word_at(end).is_some_and(|word| ["with", "from", "for"].contains(&word))
+                && self.word_at(end + 1).is_none_or(|next| [".", ",", "and"].contains(&next));
+            end += usize::from(stranded);
+            let ends = self.word_at(end).is_none_or(|next| {
+                [".", ",", "and", "then"].contains(&next) || preposition(&[next]).is_some()
+            });
+            return (done && ends).then_some(end);
+        }
+        let it = matches!(self.word_at(end), Some("it" | "them"));
+        (joined == 1 && it).then_some(end + 1)
     }
 
     pub(super) fn is_vessel(&self, phrase: &Phrase) -> bool {

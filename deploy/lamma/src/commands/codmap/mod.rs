@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use lamma_coordinator::result::{OutcomeKind, RunResult};
+use lamma_coordinator::result::{ActionResult, OutcomeKind, RunResult};
 use lamma_pddl::Name;
 use lamma_planner::GroundAct;
 use serde_json::{Value, json};
@@ -114,20 +114,12 @@ fn attempt(args: &BenchArgs, folder: &Path, task: &TaskFolder) -> Result<Tried, 
 /// What a validator says against the plan: on our own compilation, and on the set's if it has one.
 fn check(task: &TaskFolder, world: &World, result: &RunResult) -> Option<String> {
     let World::Team(team) = world else { return None };
-    let acts = |compiled: bool| -> Vec<GroundAct> {
-        let act = |a: &lamma_coordinator::result::ActionResult| {
-            let (action, args) = match compiled {
-                true => team.compiled_act(&a.robot, &a.action, &a.args),
-                false => {
-                    let args = std::iter::once(&a.robot).chain(&a.args);
-                    (Name::new(&a.action), args.map(Name::new).collect())
-                }
-            };
-            GroundAct { action, args }
-        };
-        result.plan.actions.iter().map(act).collect()
+    let compiled = |a: &ActionResult| {
+        let (action, args) = team.compiled_act(&a.robot, &a.action, &a.args);
+        GroundAct { action, args }
     };
-    let verdict = lamma_planner::validate(&team.domain, &team.problem(), &acts(true));
+    let own_acts: Vec<GroundAct> = result.plan.actions.iter().map(compiled).collect();
+    let verdict = lamma_planner::validate(&team.domain, &team.problem(), &own_acts);
     let own = match verdict {
         Ok(verdict) if verdict.is_valid() => None,
         Ok(verdict) => Some(verdict.to_string()),
@@ -136,12 +128,32 @@ fn check(task: &TaskFolder, world: &World, result: &RunResult) -> Option<String>
     own.or_else(|| {
         let (domain, problem) = task.classical.as_ref()?;
         let classical = read_task(domain, problem).ok()?;
-        match lamma_planner::validate(&classical.domain, &classical.problem, &acts(false)) {
+        match lamma_planner::validate(&classical.domain, &classical.problem, &classical_acts(result)) {
             Ok(verdict) if verdict.is_valid() => None,
             Ok(verdict) => Some(format!("on the set's own compilation: {verdict}")),
             Err(error) => Some(format!("on the set's own compilation: {error}")),
         }
     })
+}
+
+/// The plan in the set's own compilation: who acts is the first argument.
+fn classical_acts(result: &RunResult) -> Vec<GroundAct> {
+    let act = |a: &ActionResult| {
+        let args = std::iter::once(&a.robot).chain(&a.args);
+        GroundAct { action: Name::new(&a.action), args: args.map(Name::new).collect() }
+    };
+    result.plan.actions.iter().map(act).collect()
+}
+
+/// A file for each plan, `DOMAIN/PROBLEM.plan`, as other validators read it.
+fn write_plans(folder: &Path, set: &Set, finished: &[Finished]) -> std::io::Result<()> {
+    for (task, f) in set.tasks.iter().zip(finished).filter(|(_, f)| f.is_solved()) {
+        let path = folder.join(format!("{}.plan", task.id));
+        path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
+        let lines = classical_acts(&f.result).into_iter().map(|act| format!("{act}\n"));
+        std::fs::write(path, lines.collect::<String>())?;
+    }
+    Ok(())
 }
 
 fn line(name: &str, f: &Finished) -> String {
@@ -172,6 +184,7 @@ fn report(args: &BenchArgs, set: &Set, finished: &[Finished], seconds: f64) -> R
         let text = serde_json::to_string_pretty(&value).map_err(Failure::fault)?;
         std::fs::write(out.join("results.json"), text).map_err(|e| fail(&e))?;
         std::fs::write(out.join("results.csv"), table::csv(set, finished)).map_err(|e| fail(&e))?;
+        write_plans(&out.join("plans"), set, finished).map_err(|e| fail(&e))?;
     }
     match args.common.format {
         Format::Json => say(serde_json::to_string(&value).map_err(Failure::fault)?),

@@ -11,6 +11,10 @@ use crate::world::{Privacy, WorldSource};
 /// How deep below the folder tasks are looked for.
 const DEPTH: usize = 4;
 
+/// The file of reference values, and the folder of the tasks without privacy.
+const REFERENCES: &str = "reference_values.json";
+const CLASSICAL: &str = "classical";
+
 /// A set of tasks.
 pub struct Set {
     /// The folder.
@@ -57,20 +61,23 @@ impl TaskFolder {
 }
 
 /// The tasks in the folder, or in its `factored` or `unfactored` part if it has one. Reference values come from
-/// `reference_values.json` beside them, if it is there.
+/// `reference_values.json` in that folder or the one above, the set's own compilation from `classical`.
 pub fn read(folder: &Path, factored: bool, only: Option<&str>) -> Result<Set, Failure> {
     let form = if factored { "factored" } else { "unfactored" };
     let part = folder.join(form);
     let root = if part.is_dir() { part } else { folder.to_path_buf() };
     let mut found = Vec::new();
     look(&root, factored, DEPTH, &mut found).map_err(|e| Failure::unreadable(folder, &e))?;
-    let references = references(folder)?;
+    let above = folder.join("..");
+    let home = |name: &str| [folder, &above].into_iter().find(|home| home.join(name).exists());
+    let references = home(REFERENCES).map(references).transpose()?.unwrap_or_default();
+    let compiled = home(CLASSICAL).unwrap_or(folder).join(CLASSICAL);
     let mut tasks: Vec<TaskFolder> = found
         .into_iter()
         .map(|path| {
             let id = path.strip_prefix(&root).unwrap_or(&path).display().to_string();
             let (domain, problem) = id.split_once('/').unwrap_or((&id, ""));
-            let classical = folder.join("classical").join(domain);
+            let classical = compiled.join(domain);
             let pair = (classical.join("domain.pddl"), classical.join(format!("{problem}.pddl")));
             TaskFolder {
                 domain: domain.to_string(),
@@ -100,10 +107,7 @@ pub fn read(folder: &Path, factored: bool, only: Option<&str>) -> Result<Set, Fa
 }
 
 fn references(folder: &Path) -> Result<BTreeMap<String, Reference>, Failure> {
-    let path = folder.join("reference_values.json");
-    if !path.is_file() {
-        return Ok(BTreeMap::new());
-    }
+    let path = folder.join(REFERENCES);
     let text = std::fs::read_to_string(&path).map_err(|e| Failure::unreadable(&path, &e))?;
     let read: References =
         serde_json::from_str(&text).map_err(|e| Failure::bad_input(format!("{}: {e}", path.display())))?;

@@ -1,0 +1,104 @@
+//! Several noun phrases: what is joined by "and" and commas, and where such a list ends.
+
+use super::super::clause::{Parser, is_going};
+use super::super::syntax::{Head, Phrase, Quantity};
+use super::DEEPEST;
+
+impl Parser<'_> {
+    /// Noun phrases joined by "and" and commas, up to the next clause.
+    pub(in crate::offline) fn phrases(&mut self, depth: usize) -> Vec<Phrase> {
+        let mut found = Vec::new();
+        let Some(first) = self.phrase(depth) else { return found };
+        found.push(first);
+        loop {
+            let start = self.position;
+            let joined = self.skip_joins();
+            if !joined || self.clause_starts_here(false) || self.another_subject(depth > 0) {
+                self.position = start;
+                return found;
+            }
+            let or = !self.negated && self.words[start..self.position].iter().any(|word| word == "or");
+            match self.phrase(depth) {
+                Some(phrase) if or => {
+                    if let Some(first) = found.pop() {
+                        let chosen = self.chosen(first, phrase);
+                        found.push(chosen);
+                    }
+                }
+                Some(mut phrase) => {
+                    let comma = self.words.get(start).is_some_and(|word| word == ",");
+                    if let (true, [class]) = (comma, found.as_slice())
+                        && is_one_of(&phrase, class)
+                    {
+                        found.clear();
+                    }
+                    // "all the cabinets and drawers"
+                    let all = found.last().is_some_and(|last| last.quantity == Quantity::All);
+                    if all && phrase.quantity == Quantity::Plural {
+                        phrase.quantity = Quantity::All;
+                    }
+                    // "both the plate and the bowl": one of each.
+                    if let [first] = found.as_mut_slice()
+                        && first.text.starts_with("both ")
+                    {
+                        first.quantity = Quantity::One;
+                    }
+                    found.push(phrase);
+                }
+                None => {
+                    self.position = start;
+                    return found;
+                }
+            }
+        }
+    }
+
+    /// ", each goes into the bowl", "a box with a bat, the ball goes …": something is said of what comes next.
+    fn another_subject(&self, of_contents: bool) -> bool {
+        // "chill the wine and the lights out"
+        if !self.switches {
+            let mut ahead = self.ahead(0);
+            if ahead.phrase(DEEPEST).is_some() && ahead.switched_follows() {
+                return true;
+            }
+        }
+        let pronoun =
+            self.peek().is_some_and(|word| ["each", "both", "they", "it", "these", "those"].contains(&word));
+        if !pronoun && !of_contents {
+            return false;
+        }
+        let mut ahead = self.ahead(0);
+        ahead.phrase(DEEPEST).is_some()
+            && ahead.peek().is_some_and(|word| {
+                is_going(word) || ["should", "must", "need", "needs", "is", "are"].contains(&word)
+            })
+    }
+
+    /// Passes over "and", commas and the like between noun phrases.
+    pub(in crate::offline) fn skip_joins(&mut self) -> bool {
+        let start = self.position;
+        while let Some(word) = self.peek() {
+            match word {
+                "," | "and" | "plus" | "or" | "nor" => self.position += 1,
+                "as" if self.rest().starts_with(&["as", "well", "as"]) => self.position += 3,
+                "along" | "together" if self.word_at(1) == Some("with") => self.position += 2,
+                "then" | "also" if self.position > start && !self.clause_starts_here(false) => {
+                    self.position += 1
+                }
+                _ => break,
+            }
+        }
+        self.position > start
+    }
+}
+
+/// "the food: the apple goes …", "both vegetables, the lettuce and …": whether one phrase names a member of
+/// another's class.
+pub(in crate::offline) fn is_one_of(phrase: &Phrase, class: &Phrase) -> bool {
+    match (&phrase.head, &class.head) {
+        (Head::Noun(one), Head::Noun(class)) => {
+            class.class && !one.class && one.kinds.first().is_some_and(|kind| class.kinds.contains(kind))
+        }
+        _ => false,
+    }
+}
