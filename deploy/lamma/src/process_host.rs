@@ -5,6 +5,7 @@ use std::ffi::OsString;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
+use std::time::Duration;
 
 use lamma_bus::Bus;
 use lamma_protocol::{AgentId, Node};
@@ -144,6 +145,9 @@ pub fn member(role: &str, name: &str, folder: &Path, join: Vec<OsString>, agent:
     Spec { name: name.into(), args, log: log_file(folder, name), ..Spec::default() }
 }
 
+/// How long a bridge may take to bring the last word to other hosts: a link may lose it several times.
+const LAST_WORD: Duration = Duration::from_secs(10);
+
 impl Host for ProcessHost {
     fn bus(&mut self) -> &mut dyn Bus {
         self.bus.as_mut()
@@ -164,8 +168,13 @@ impl Host for ProcessHost {
     }
 
     fn end(self: Box<Self>) -> Result<(), Failure> {
-        let ProcessHost { supervisor, bus, meeting, .. } = *self;
-        supervisor.end(Patience::default());
+        let ProcessHost { supervisor, bus, meeting, records, .. } = *self;
+        let mut patience = Patience::default();
+        if records.iter().any(|record| record.role == "bridge") {
+            // It ends when the other hosts have the last word. Without that their robots would wait for ever.
+            patience.ask = LAST_WORD;
+        }
+        supervisor.end(patience);
         drop(bus);
         meeting.end()
     }

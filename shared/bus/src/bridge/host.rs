@@ -16,6 +16,10 @@ use crate::{Bus, Received};
 /// How often a thread looks at its flag when nothing wakes it.
 const PULSE: Duration = Duration::from_secs(1);
 
+/// How long a bridge that has nothing left to carry stays to say again what it has heard: the other end waits for its last
+/// acknowledgement, which may have been lost.
+const LINGER: Duration = Duration::from_millis(300);
+
 /// The nodes that live on each of the other hosts, by the host's name.
 pub type Away = BTreeMap<String, Vec<Node>>;
 
@@ -35,6 +39,8 @@ struct State {
     failed: Option<String>,
     /// The run is over: what has been said is still carried, and then no more.
     ending: bool,
+    /// When the last parcel was sent.
+    spoke: Instant,
     sent: u64,
 }
 
@@ -43,7 +49,8 @@ impl Bridge {
     pub fn new(away: Away, session: u64, stop: Stop) -> Arc<Bridge> {
         let links = away.keys().map(|host| (host.clone(), Link::new(session))).collect();
         let (inboxes, wakers) = (BTreeMap::new(), BTreeMap::new());
-        let state = State { links, inboxes, wakers, failed: None, ending: false, sent: 0 };
+        let state =
+            State { links, inboxes, wakers, failed: None, ending: false, spoke: Instant::now(), sent: 0 };
         Arc::new(Bridge { away, state: Mutex::new(state), changed: Condvar::new(), stop })
     }
 
@@ -126,9 +133,12 @@ impl Bridge {
         let parcels: Vec<_> =
             state.links.iter_mut().filter_map(|(host, link)| Some((host.clone(), link.poll(now)?))).collect();
         if parcels.is_empty() {
-            let due = state.links.values().filter_map(Link::due).min();
+            let mut due = state.links.values().filter_map(Link::due).min();
             if state.ending && due.is_none() {
-                return self.stop.stop();
+                if now >= state.spoke + LINGER {
+                    return self.stop.stop();
+                }
+                due = Some(state.spoke + LINGER);
             }
             let pause = due.map_or(PULSE, |due| due.saturating_duration_since(now)).min(PULSE);
             // What is said between the poll and here holds the lock, so it is not missed.
@@ -136,6 +146,7 @@ impl Bridge {
             return;
         }
         state.sent += parcels.len() as u64;
+        state.spoke = now;
         drop(state);
         for (host, parcel) in parcels {
             send(&host, parcel.to_bytes());
