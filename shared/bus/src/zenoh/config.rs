@@ -94,8 +94,22 @@ pub struct Join {
 /// The largest message that is put together from its parts: ours with some room for Zenoh's own head.
 const LARGEST: usize = codec::MAX_MESSAGE_BYTES + (64 << 10);
 
-/// How long a message may wait for room on the way, in microseconds, before it is dropped (a sender may wait no
-/// longer than a millisecond in all); and in all for the parts of a large one, which it needs on a slow link.
+/// From this size on a message is large: the queue of a link may well have no room for all its parts at once.
+pub(super) const LARGE: usize = 256 << 10;
+
+/// What a session does with a message for which the queue of its link has no room.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Room {
+    /// It drops it. On a busy host who sleeps for a moment gets its turn again after milliseconds, and what is
+    /// dropped is said again.
+    AtOnce,
+    /// It waits for room, as a large message must on a slow link.
+    Awaited,
+}
+
+/// How long a message may wait for room before it is dropped, in microseconds; and in all for the parts of a
+/// large one.
+const WAIT: &str = "transport/link/tx/queue/congestion_control/drop/wait_before_drop";
 const WAIT_BEFORE_DROP: u64 = 100;
 const WAIT_BEFORE_DROP_LARGE: u64 = 500_000;
 
@@ -112,9 +126,12 @@ pub(super) fn at_once(agents: u16) -> bool {
 const SESSIONS: usize = 16_384;
 
 /// The settings of a session that joins a run.
-pub(super) fn client(join: &Join) -> Result<Config, OpenError> {
+pub(super) fn client(join: &Join, room: Room) -> Result<Config, OpenError> {
     let mut config = common(join.identity.as_ref())?;
     set(&mut config, "mode", "client")?;
+    if room == Room::AtOnce {
+        set(&mut config, WAIT, 0)?;
+    }
     set(&mut config, "connect/endpoints", [&join.connect])?;
     let patience = i64::try_from(join.patience.as_millis()).unwrap_or(i64::MAX);
     set(&mut config, "connect/timeout_ms", patience)?;
@@ -172,7 +189,7 @@ fn common(identity: Option<&Identity>) -> Result<Config, OpenError> {
         set(&mut config, &format!("transport/link/tx/queue/size/{priority}"), QUEUE)?;
     }
     let drop = "transport/link/tx/queue/congestion_control/drop";
-    set(&mut config, &format!("{drop}/wait_before_drop"), WAIT_BEFORE_DROP)?;
+    set(&mut config, WAIT, WAIT_BEFORE_DROP)?;
     set(&mut config, &format!("{drop}/max_wait_before_drop_fragments"), WAIT_BEFORE_DROP_LARGE)?;
     if let Some(identity) = identity {
         set(&mut config, "transport/link/tls/root_ca_certificate", identity.authority())?;

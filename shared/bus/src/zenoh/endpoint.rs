@@ -32,6 +32,9 @@ pub struct Endpoint {
     agents: u16,
     keys: Keys,
     session: Session,
+    /// For large messages, from the first on: it waits for room where the other drops.
+    large: Option<Session>,
+    join: Join,
     opened: u64,
     at_once: bool,
     said: BTreeMap<Topic, Said>,
@@ -46,6 +49,7 @@ pub struct Endpoint {
 /// What was said last on a topic, and when it is to be said again.
 struct Said {
     on: Publisher<'static>,
+    large: bool,
     payload: ZBytes,
     number: u64,
     again: Instant,
@@ -61,7 +65,9 @@ impl Endpoint {
             return Err(OpenError::NoSuchNode { node, agents });
         }
         let fail = |reason: String| OpenError::Connect { node, at: join.connect.clone(), reason };
-        let session = zenoh::open(config::client(join)?).wait().map_err(|e| fail(e.to_string()))?;
+        let session = zenoh::open(config::client(join, config::Room::AtOnce)?)
+            .wait()
+            .map_err(|e| fail(e.to_string()))?;
         let keys = Keys::new(&join.run);
         let mailbox = Arc::new(Mailbox::new(crate::topics_read_by(node, agents)));
         let mut subscribers = Vec::new();
@@ -89,6 +95,8 @@ impl Endpoint {
             agents,
             keys,
             session,
+            large: None,
+            join: join.clone(),
             opened,
             at_once: config::at_once(agents),
             said: BTreeMap::new(),
@@ -114,20 +122,28 @@ impl Endpoint {
         let fail = |e: zenoh::Error| PublishError::Transport { topic, reason: e.to_string() };
         let (again, pause) = (Instant::now() + FIRST_REPEAT, FIRST_REPEAT);
         let number = self.inbox.stats.published + 1;
-        let said = match self.said.remove(&topic) {
-            Some(said) => Said { payload: payload.into(), number, again, pause, ..said },
-            None => {
-                // Where a publisher is declared, the router keeps the way for its key. For a key that it meets in
-                // messages only, it works out the way of each message anew, from all the keys it knows.
-                let on = self.session.declare_publisher(self.keys.topic(topic));
-                let on = on.congestion_control(CongestionControl::Drop).express(self.at_once);
-                Said { on: on.wait().map_err(fail)?, payload: payload.into(), number, again, pause }
-            }
+        let large = payload.len() >= config::LARGE;
+        let same = |said: &Said| said.large == large;
+        let on = match self.said.get(&topic).is_some_and(same).then(|| self.said.remove(&topic)).flatten() {
+            Some(said) => said.on,
+            None => self.declare(topic, large).map_err(fail)?,
         };
+        let said = Said { on, large, payload: payload.into(), number, again, pause };
         let sent = said.send(self.opened);
         self.said.insert(topic, said);
         self.inbox.stats.published = number;
         sent.map_err(fail)
+    }
+
+    /// Where a publisher is declared, the router keeps the way for its key. For a key that it meets in messages only,
+    /// it works out the way of each message anew, from all the keys it knows.
+    fn declare(&mut self, topic: Topic, large: bool) -> zenoh::Result<Publisher<'static>> {
+        if large && self.large.is_none() {
+            self.large = Some(zenoh::open(config::client(&self.join, config::Room::Awaited)?).wait()?);
+        }
+        let session = self.large.as_ref().filter(|_| large).unwrap_or(&self.session);
+        let on = session.declare_publisher(self.keys.topic(topic));
+        on.congestion_control(CongestionControl::Drop).express(self.at_once).wait()
     }
 
     /// Says again what is due, and to who has come all that it reads. Gives when to do so next.
@@ -313,9 +329,11 @@ fn rank(topic: Topic) -> (u32, u8) {
 impl Drop for Endpoint {
     fn drop(&mut self) {
         // Last words are heard: what was sent reaches the router before the session ends.
-        let _ = sync(&self.session, &self.keys, self.node, LAST_PATIENCE);
-        if let Err(error) = self.session.close().wait() {
-            tracing::debug!("{} leaves without a word: {error}", self.node);
+        for session in [Some(&self.session), self.large.as_ref()].into_iter().flatten() {
+            let _ = sync(session, &self.keys, self.node, LAST_PATIENCE);
+            if let Err(error) = session.close().wait() {
+                tracing::debug!("{} leaves without a word: {error}", self.node);
+            }
         }
     }
 }

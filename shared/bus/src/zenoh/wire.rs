@@ -34,7 +34,7 @@ impl Wire {
     /// The session of another host.
     pub fn join(join: &Join, host: &str, bridge: &Arc<Bridge>) -> Result<Wire, OpenError> {
         let refused = |e: zenoh::Error| OpenError::Bridge { host: host.into(), reason: e.to_string() };
-        let session = zenoh::open(config::client(join)?).wait().map_err(refused)?;
+        let session = zenoh::open(config::client(join, config::Room::Awaited)?).wait().map_err(refused)?;
         Wire::new(session, &join.run, host, bridge)
     }
 
