@@ -83,22 +83,27 @@ impl Robot {
             return;
         }
         self.heard = Some(revision);
-        if directive.epoch > self.epoch {
+        let entered = directive.epoch > self.epoch;
+        if entered {
             self.enter(directive.epoch);
         }
-        match directive.order {
-            Order::Stand => {}
+        let new = match directive.order {
+            Order::Stand => false,
             Order::Plan(packages) => self.plan(packages),
             Order::Execute(steps) => self.execute(steps),
             Order::Leave => self.leave(),
+        };
+        // An order said again is no news: a large team that answered each would keep its coordinator busy for ever.
+        if entered || new {
+            self.report();
         }
-        self.report();
     }
 
-    fn leave(&mut self) {
+    fn leave(&mut self) -> bool {
         self.cancel_jobs();
         self.phase = Phase::Left;
         self.outputs.push_back(Output::Finish);
+        true
     }
 
     /// A new epoch voids everything of the old.
@@ -115,12 +120,14 @@ impl Robot {
         }
     }
 
-    fn plan(&mut self, packages: Vec<Package>) {
-        let Ok(domain) = self.config.domain.clone() else { return };
+    /// Begins with the packages that it does not know; true if there are any.
+    fn plan(&mut self, packages: Vec<Package>) -> bool {
+        let Ok(domain) = self.config.domain.clone() else { return false };
         if let Phase::Idle = self.phase {
             self.phase = Phase::Planning { jobs: BTreeMap::new() };
         }
-        let Phase::Planning { jobs } = &mut self.phase else { return };
+        let Phase::Planning { jobs } = &mut self.phase else { return false };
+        let first = self.next_job;
         for package in packages {
             let known =
                 self.plans.iter().any(|p| p.id == package.id) || jobs.values().any(|id| *id == package.id);
@@ -133,10 +140,13 @@ impl Robot {
             let work = RobotJob { package, domain: domain.clone(), expansions: self.config.expansions };
             self.outputs.push_back(Output::Spawn(job, work));
         }
+        self.next_job > first
     }
 
-    fn execute(&mut self, steps: Vec<Step>) {
-        if !matches!(self.phase, Phase::Executing(_)) {
+    /// Begins to carry out the steps, if it has not begun; true if it begins now.
+    fn execute(&mut self, steps: Vec<Step>) -> bool {
+        let begins = !matches!(self.phase, Phase::Executing(_));
+        if begins {
             self.cancel_jobs();
             self.phase = Phase::Executing(Execution::new(self.config.id, self.epoch, steps));
             let seen = std::mem::take(&mut self.seen);
@@ -144,6 +154,7 @@ impl Robot {
                 self.frame(&frame);
             }
         }
+        begins
     }
 
     fn planned(&mut self, job: JobId, done: RobotDone) {
@@ -240,7 +251,9 @@ impl Machine for Robot {
                         self.report();
                     }
                 }
-                Message::Command(command) if command.stop => self.leave(),
+                Message::Command(command) if command.stop => {
+                    self.leave();
+                }
                 // Who is lost is the coordinator's affair.
                 Message::Command(_) => {}
                 Message::Outcome(_)

@@ -3,7 +3,7 @@
 //! It interprets the lifted domain directly (the plain semantics), so a grounding bug of a planner shows
 //! up here as a refusal, not as a wrong world.
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
 use lamma_pddl::Name;
@@ -83,7 +83,7 @@ pub struct Arbiter {
     clock: LogicalClock,
     step_ms: u64,
     /// Requests that are being carried out, and when they are done.
-    under_way: Vec<Option<(Tick, Request)>>,
+    under_way: BTreeMap<AgentId, (Tick, Request)>,
     /// When the last input came.
     now: Tick,
     repeat_at: Tick,
@@ -122,7 +122,7 @@ impl Arbiter {
             applied: 0,
             clock: LogicalClock::new(agents),
             step_ms: config.step_ms,
-            under_way: vec![None; agents],
+            under_way: BTreeMap::new(),
             now: Tick(0),
             repeat_at: Tick(0),
             events: Events::new(config.events, agents),
@@ -165,7 +165,7 @@ impl Arbiter {
             self.epoch = grant.epoch;
             self.closed = std::mem::replace(&mut self.progress, vec![StepIndex(0); self.agents.len()]);
             self.acks.forget();
-            self.under_way.fill(None);
+            self.under_way.clear();
             self.clock.new_epoch();
             self.changed();
         }
@@ -173,14 +173,12 @@ impl Arbiter {
 
     /// Settles the requests whose time has come.
     fn settle_due(&mut self, now: Tick) {
-        for agent in (0..self.agents.len() as u16).map(AgentId) {
-            let Some((_, request)) = self.under_way[agent.index()].take_if(|(at, _)| *at <= now) else {
-                continue;
-            };
+        let due: Vec<_> = self.under_way.extract_if(.., |_, (at, _)| *at <= now).collect();
+        for (agent, (_, request)) in due {
             let still = self.events.still_at();
             if self.events.is_due(agent) && still > now {
                 // Others have acted meanwhile: it is held on.
-                self.under_way[agent.index()] = Some((still, request));
+                self.under_way.insert(agent, (still, request));
             } else {
                 self.settle(agent, &request);
             }
@@ -215,11 +213,9 @@ impl Arbiter {
         if self.step_ms == 0 && !held {
             return self.settle(agent, &request);
         }
-        let slot = &mut self.under_way[agent.index()];
-        let same = slot.as_ref().is_some_and(|(_, known)| *known == request);
-        if !same {
+        if self.under_way.get(&agent).is_none_or(|(_, known)| *known != request) {
             let still = if held { self.events.still_at() } else { now };
-            *slot = Some((now.after_ms(self.step_ms).max(still), request));
+            self.under_way.insert(agent, (now.after_ms(self.step_ms).max(still), request));
         }
     }
 
@@ -436,7 +432,7 @@ impl Machine for Arbiter {
     }
 
     fn poll_timeout(&self) -> Option<Tick> {
-        let due = self.under_way.iter().flatten().map(|(at, _)| *at).min();
+        let due = self.under_way.values().map(|(at, _)| *at).min();
         let owed = self.vocabulary_owed.then_some(self.vocabulary_free);
         [Some(self.repeat_at), due, owed].into_iter().flatten().min()
     }
