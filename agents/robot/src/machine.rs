@@ -148,6 +148,8 @@ impl Robot {
         let begins = !matches!(self.phase, Phase::Executing(_));
         if begins {
             self.cancel_jobs();
+            // Who hands out steps has heard the plans: they need not be said again and again.
+            self.plans.clear();
             self.phase = Phase::Executing(Execution::new(self.config.id, self.epoch, steps));
             let seen = std::mem::take(&mut self.seen);
             if let Ok(frame) = Frame::new(&seen) {
