@@ -230,11 +230,12 @@ mod tests {
             identity: Some(identity.clone()),
             patience: Duration::from_secs(3),
         };
-        client(&join).expect("a client's settings");
+        client(&join, Room::AtOnce).expect("a client's settings");
+        client(&join, Room::Awaited).expect("a client's settings");
         let listen = ["tls/[::]:7447".to_owned()];
         let connect = ["tcp/other:7447".to_owned()];
         router(&listen, &connect, Some(&identity), None).expect("a router's settings");
         let wrong = Join { connect: "nonsense".into(), ..join };
-        assert!(matches!(client(&wrong), Err(OpenError::Setting { .. })));
+        assert!(matches!(client(&wrong, Room::Awaited), Err(OpenError::Setting { .. })));
     }
 }
