@@ -9,7 +9,7 @@ use lamma_domains::robots::team;
 use lamma_domains::world::Rules;
 use serde_json::{Value, json};
 
-use crate::batch;
+use crate::batch::{self, Batch};
 use crate::cli::{BenchArgs, Format};
 use crate::commands::run::{check_lm, script, spec_from};
 use crate::compat::{self, Compat};
@@ -39,7 +39,7 @@ pub struct Finished {
     pub compat: Option<Compat>,
 }
 
-/// Runs the suite; 0 if every task could be run, whatever came of it.
+/// Runs the suite; 0 if every task could be run, whatever came of it. Interrupted, it reports what was done.
 pub fn bench(args: &BenchArgs) -> Result<u8, Failure> {
     if let Some(folder) = &args.codmap {
         return super::codmap::bench(args, folder);
@@ -64,29 +64,32 @@ pub fn bench(args: &BenchArgs) -> Result<u8, Failure> {
     }
     let folder = RunDir::create(args.common.run_dir.as_deref()).map_err(Failure::bad_input)?;
     let start = Instant::now();
-    let mut runs = Vec::new();
+    let (mut runs, mut interrupted) = (Vec::new(), false);
     for variant in variants {
         let runs_in = match args.without.is_empty() {
             true => folder.path().to_path_buf(),
             false => folder.path().join(variant.to_string()),
         };
-        let finished = run_all(args, &variant, &runs_in, &suite)?;
-        runs.push((variant, finished));
+        let batch = run_all(args, &variant, &runs_in, &suite);
+        interrupted = batch.interrupted;
+        runs.push((variant, batch.done.into_iter().map(|(_, finished)| finished).collect()));
+        if interrupted {
+            break;
+        }
     }
     report(args, &suite, &runs, start.elapsed().as_secs_f64())?;
-    let broken = runs.iter().flat_map(|(_, f)| f).any(|f| f.result.outcome == OutcomeKind::Error);
-    Ok(if broken { exit::FAULT } else { exit::SUCCESS })
+    let broken = |f: &Finished| f.result.outcome == OutcomeKind::Error;
+    Ok(match runs.iter().flat_map(|(_, f): &(_, Vec<Finished>)| f).any(broken) {
+        true => exit::FAULT,
+        false if interrupted => exit::GAVE_UP,
+        false => exit::SUCCESS,
+    })
 }
 
-fn run_all(
-    args: &BenchArgs,
-    variant: &Variant,
-    folder: &Path,
-    suite: &Suite,
-) -> Result<Vec<Finished>, Failure> {
+fn run_all(args: &BenchArgs, variant: &Variant, folder: &Path, suite: &Suite) -> Batch<Finished> {
     let names: Vec<String> = suite.entries.iter().map(|entry| entry.task.id.clone()).collect();
     let work = |index: usize| run_one(args, variant, folder, index, &suite.entries[index]);
-    Ok(batch::each(&names, args.jobs, work, |index, f| line(&suite.entries[index], &f.result)))
+    batch::each(&names, args.jobs, work, |index, f| line(&suite.entries[index], &f.result))
 }
 
 fn line(entry: &Entry, result: &RunResult) -> String {

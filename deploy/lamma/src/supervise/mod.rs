@@ -32,6 +32,7 @@ use thiserror::Error;
 
 use keeper::{Bell, Keeper, Order};
 pub use run_dir::{RunDir, log_file};
+pub use signals::Interrupts;
 
 /// A member of the run to be started.
 #[derive(Clone, Debug, Default)]

@@ -1,11 +1,14 @@
-//! Ctrl-C and its like as bytes in a pipe, to be polled.
+//! Ctrl-C and its like: as bytes in a pipe, to be polled, and as a flag.
 
 use std::io::{self, Read};
 use std::os::fd::{AsFd, BorrowedFd};
 use std::os::unix::net::UnixStream;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use signal_hook::SigId;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::flag;
 use signal_hook::low_level::{emulate_default_handler, pipe, signal_name, unregister};
 
 /// What asks a run to end.
@@ -43,6 +46,28 @@ impl AsFd for Signals {
 impl Drop for Signals {
     fn drop(&mut self) {
         for handler in self.handlers.drain(..) {
+            unregister(handler);
+        }
+    }
+}
+
+/// These signals of this process, noted in a flag for as long as this lives: for what is made of many runs, each of
+/// which sees only the signals of its own time.
+pub struct Interrupts(Vec<SigId>);
+
+impl Interrupts {
+    /// Sets the flag when one comes.
+    pub fn noted_in(flag: &Arc<AtomicBool>) -> Interrupts {
+        // It fails only for signals that cannot be handled, which these are not.
+        Interrupts(
+            ENDING.iter().filter_map(|signal| flag::register(*signal, Arc::clone(flag)).ok()).collect(),
+        )
+    }
+}
+
+impl Drop for Interrupts {
+    fn drop(&mut self) {
+        for handler in self.0.drain(..) {
             unregister(handler);
         }
     }

@@ -1,6 +1,9 @@
 //! Benchmarks: what they write, and that they write the same again.
 
-use crate::tools::{Folder, json, output, run_args};
+use std::io::{BufRead, BufReader};
+use std::time::Duration;
+
+use crate::tools::{Folder, finish, json, output, run_args, signal, start};
 
 const TASKS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../domains/tasks/mat-thor.jsonl");
 
@@ -43,6 +46,24 @@ fn generated_tasks_are_a_suite() {
     assert_eq!(code, 0);
     assert_eq!(result["tasks"].as_array().unwrap().len(), 20, "two in each of FloorPlan410 to 419");
     assert_eq!(result["table"]["all"]["sr"], 1.0, "{result:#}");
+}
+
+#[test]
+fn ctrl_c_ends_a_benchmark_with_what_was_done() {
+    let folder = Folder::new("bench-ctrl-c");
+    let args = ["bench", "--tasks", TASKS, "--goals-given", "--format", "json", "--jobs", "1"];
+    let mut child = start(&folder, &args);
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    let done = lines.by_ref().map(Result::unwrap).filter(|line| line.contains("success")).take(2);
+    assert_eq!(done.count(), 2, "two tasks are done");
+    signal(child.id(), "INT");
+    let rest: Vec<String> = lines.map(Result::unwrap).collect();
+    let (code, result) = json(&finish(child, Duration::from_secs(10)));
+    let tasks = result["tasks"].as_array().unwrap().len();
+    assert_eq!(code, 11, "{rest:#?}");
+    assert!((2..70).contains(&tasks), "{tasks} of 70 are reported");
+    assert_eq!(result["table"]["all"]["sr"], 1.0, "what was cut short does not count");
+    assert!(rest.iter().any(|line| *line == format!("interrupted: {tasks} of 70 were done")), "{rest:#?}");
 }
 
 /// An action that fails is planned around, and the same script gives the same episode.

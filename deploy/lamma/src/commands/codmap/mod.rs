@@ -5,6 +5,7 @@ mod cpu;
 mod set;
 mod table;
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -58,16 +59,23 @@ pub fn bench(args: &BenchArgs, folder: &Path) -> Result<u8, Failure> {
             "--travel is for household scenes: PDDL files state their own durations",
         ));
     }
-    let set = set::read(folder, args.factored, args.only.as_deref())?;
+    let mut set = set::read(folder, args.factored, args.only.as_deref())?;
     let runs = RunDir::create(args.common.run_dir.as_deref()).map_err(Failure::bad_input)?;
     let names: Vec<String> = set.tasks.iter().map(|task| task.id.clone()).collect();
     let start = Instant::now();
-    let finished =
+    let batch =
         batch::each(&names, args.jobs, |i| one(args, runs.path(), &set.tasks[i]), |i, f| line(&names[i], f));
     let seconds = start.elapsed().as_secs_f64();
+    let (done, finished): (BTreeSet<usize>, Vec<Finished>) = batch.done.into_iter().unzip();
+    let mut index = 0..;
+    set.tasks.retain(|_| index.next().is_some_and(|i| done.contains(&i)));
     report(args, &set, &finished, seconds)?;
     let broken = |f: &Finished| f.result.outcome == OutcomeKind::Error || f.invalid.is_some();
-    Ok(if finished.iter().any(broken) { exit::FAULT } else { exit::SUCCESS })
+    Ok(match finished.iter().any(broken) {
+        true => exit::FAULT,
+        false if batch.interrupted => exit::GAVE_UP,
+        false => exit::SUCCESS,
+    })
 }
 
 fn one(args: &BenchArgs, runs: &Path, task: &TaskFolder) -> Finished {
