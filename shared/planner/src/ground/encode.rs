@@ -1,8 +1,10 @@
 //! From propositions to finite-domain variables packed into words.
 
+use std::collections::BTreeSet;
+
 use super::invariant::Groups;
 use super::limits::Ticks;
-use super::propositional::{Ground, GroundOperator, Lit, Stretch};
+use super::propositional::{Ground, GroundEffect, GroundOperator, Lit, Stretch};
 use super::relation::Relation;
 use super::{GroundError, GroundLimits};
 use crate::csr::Csr;
@@ -334,7 +336,7 @@ impl Encoder<'_> {
     /// An operator's effects on variables. PDDL's deletes before adds becomes: where an operator adds an
     /// atom of a group, deletes of the group's other atoms are already said.
     fn effects(&self, operator: &GroundOperator, precondition: &[FactId]) -> Effects {
-        let lits = self.ground.lits(operator.effects);
+        let (lits, sometimes) = self.always_and_sometimes(operator, precondition);
         let mut effects = Effects::default();
         for &lit in lits.iter().filter(|lit| lit.holds()) {
             effects.plain.extend(self.facts_to_set(self.atoms[lit.atom()], true).into_iter().flatten());
@@ -342,14 +344,9 @@ impl Encoder<'_> {
         for &lit in lits.iter().filter(|lit| !lit.holds()) {
             self.delete(lit.atom(), &[], precondition, &mut effects);
         }
-        let (mut deletes, mut adds) = (Vec::new(), Vec::new());
-        for effect in &self.ground.conditional[operator.conditional.range()] {
-            let atom = effect.effect.atom();
-            if lits.contains(&Lit::new(atom as u32, true)) {
-                continue;
-            }
-            (if effect.effect.holds() { &mut adds } else { &mut deletes }).push(effect);
-        }
+        let of_adds = |effect: &&GroundEffect| effect.effect.holds();
+        let (adds, deletes): (Vec<&GroundEffect>, Vec<&GroundEffect>) =
+            sometimes.into_iter().partition(of_adds);
         for effect in deletes {
             let condition = self.conditions(effect.condition);
             if !self.contradictory(&condition) {
@@ -370,6 +367,25 @@ impl Encoder<'_> {
         effects.plain.sort_unstable();
         effects.plain.dedup();
         effects
+    }
+
+    /// What the operator does in any case, and what under a condition that may fail. Conditions on facts that never
+    /// change are no conditions; what is added in any case is deleted in none.
+    fn always_and_sometimes(
+        &self,
+        operator: &GroundOperator,
+        precondition: &[FactId],
+    ) -> (Vec<Lit>, Vec<&GroundEffect>) {
+        let conditional = &self.ground.conditional[operator.conditional.range()];
+        let given = |fact: &FactId| precondition.binary_search(fact).is_ok();
+        let (always, mut sometimes): (Vec<&GroundEffect>, Vec<&GroundEffect>) =
+            conditional.iter().partition(|effect| self.conditions(effect.condition).iter().all(given));
+        let mut lits = self.ground.lits(operator.effects).to_vec();
+        lits.extend(always.iter().map(|effect| effect.effect));
+        let added: BTreeSet<usize> = lits.iter().filter(|lit| lit.holds()).map(|lit| lit.atom()).collect();
+        lits.retain(|lit| lit.holds() || !added.contains(&lit.atom()));
+        sometimes.retain(|effect| !added.contains(&effect.effect.atom()));
+        (lits, sometimes)
     }
 
     fn delete(&self, atom: usize, condition: &[FactId], precondition: &[FactId], effects: &mut Effects) {
