@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use lamma_pddl::ast::{Condition, GroundAtom};
 use lamma_planner::interpreter::{GroundCondition, Interpreter, WorldState};
-use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder, literal_effects};
+use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder};
 use lamma_protocol::message::{Act, Gate, Step};
 use lamma_protocol::{AgentId, StepIndex};
 
@@ -150,7 +150,7 @@ fn last_steps_before(spec: &PackageSpec, merger: &Merger, packages: &[PackageSpe
 }
 
 fn touches(step: &TeamStep, atoms: &BTreeSet<GroundAtom>) -> bool {
-    literal_effects(&step.action).any(|(_, effect)| atoms.contains(&effect.atom))
+    step.action.literal_effects().any(|(_, effect)| atoms.contains(&effect.atom))
 }
 
 /// The order as steps with gates, for each member.

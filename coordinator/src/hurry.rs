@@ -7,12 +7,13 @@
 //! budget, which is counted in steps looked at, so that it is the same on every machine.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use lamma_pddl::Name;
 use lamma_planner::GroundAct;
 use lamma_planner::interpreter::{GroundAction, GroundCondition, Interpreter, WorldState};
-use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder};
+use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder_along};
 
 /// The most steps that are moved together: going somewhere, taking something, and bringing it elsewhere through a door.
 const LONGEST_BLOCK: usize = 6;
@@ -60,7 +61,7 @@ impl Hurry<'_> {
         &self,
         from: &Candidate,
         left: &mut u64,
-        known: &mut BTreeMap<GroundAct, Option<GroundAction>>,
+        known: &mut BTreeMap<GroundAct, Option<Arc<GroundAction>>>,
         cancel: &AtomicBool,
     ) -> Option<Candidate> {
         for (start, end) in blocks(&from.doings) {
@@ -98,14 +99,16 @@ impl Hurry<'_> {
         like: Option<&Candidate>,
         first: usize,
         left: &mut u64,
-        known: &mut BTreeMap<GroundAct, Option<GroundAction>>,
+        known: &mut BTreeMap<GroundAct, Option<Arc<GroundAction>>>,
     ) -> Option<Candidate> {
         let mut states = like.map_or_else(|| vec![self.initial.clone()], |l| l.states[..=first].to_vec());
         let mut steps: Vec<TeamStep> = Vec::with_capacity(doings.len());
         let mut busy: BTreeMap<usize, f64> = BTreeMap::new();
         for (index, (agent, act)) in doings.iter().enumerate() {
-            let action =
-                known.entry(act.clone()).or_insert_with(|| self.interpreter.instantiate(act).ok()).clone()?;
+            let action = known
+                .entry(act.clone())
+                .or_insert_with(|| self.interpreter.instantiate(act).ok().map(Arc::new))
+                .clone()?;
             // Nobody is done before the time of its own steps.
             *busy.entry(*agent).or_insert(0.0) += self.interpreter.duration(&states[index], &action).ok()?;
             if like.is_some_and(|like| busy[agent] > like.score.0) {
@@ -124,7 +127,7 @@ impl Hurry<'_> {
         }
         // Explaining a plan looks at each pair of its steps.
         *left = left.saturating_sub((steps.len() * steps.len() / 4) as u64);
-        let order = deorder(self.interpreter, self.initial, steps, self.goal, &[]).ok()?;
+        let order = deorder_along(self.interpreter, states.clone(), steps, self.goal, &[], &[]).ok()?;
         let score = (order.makespan(), order.durations.iter().sum());
         Some(Candidate { doings, states, order, score })
     }
@@ -215,7 +218,7 @@ mod tests {
         let step = |house: &&str| {
             ["go", "sweep"].map(|action| {
                 let action = interpreter.instantiate(&GroundAct::new(action, [robots[0], house])).unwrap();
-                TeamStep { agent: 0, action }
+                TeamStep { agent: 0, action: Arc::new(action) }
             })
         };
         let steps: Vec<TeamStep> = ["c", "a", "b"].iter().flat_map(step).collect();

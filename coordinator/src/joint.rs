@@ -148,7 +148,8 @@ fn explain(input: &JointInput, interpreter: &Interpreter, plan: &Plan) -> Result
     for act in &plan.acts {
         let agent = act.args.first().and_then(|name| input.team.member(name));
         let agent = agent.ok_or_else(|| format!("nobody of the team does {act}"))?;
-        steps.push(TeamStep { agent, action: interpreter.instantiate(act).map_err(|e| e.to_string())? });
+        let action = interpreter.instantiate(act).map_err(|e| e.to_string())?;
+        steps.push(TeamStep { agent, action: Arc::new(action) });
     }
     let goal = interpreter.ground_condition(&input.goal).map_err(|e| e.to_string())?;
     deorder(interpreter, &start(input), steps, &goal, &[])

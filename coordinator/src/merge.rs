@@ -5,9 +5,11 @@
 //! dropped, and one that is simply impossible there makes the package a conflict, to be planned again from
 //! that state.
 
+use std::sync::Arc;
+
 use lamma_planner::GroundAct;
 use lamma_planner::interpreter::{GroundAction, GroundCondition, Interpreter, WorldState};
-use lamma_planner::partial_order::{TeamStep, literal_effects};
+use lamma_planner::partial_order::TeamStep;
 
 /// The linear plan so far and the state it leads to.
 #[derive(Clone, Debug)]
@@ -67,7 +69,7 @@ impl Merger {
                 Ok(_) if next == state => {}
                 Ok(_) => {
                     state = next;
-                    added.push(TeamStep { agent, action });
+                    added.push(TeamStep { agent, action: Arc::new(action) });
                 }
                 Err(_) if is_done_already(&state, &action) => {}
                 Err(violation) => return Err(conflict(violation.to_string())),
@@ -122,7 +124,8 @@ impl Merger {
 
 /// Whether everything the action is sure to bring about holds.
 fn is_done_already(state: &WorldState, action: &GroundAction) -> bool {
-    let mut unconditional = literal_effects(action)
+    let mut unconditional = action
+        .literal_effects()
         .filter(|(condition, _)| condition.is_true())
         .map(|(_, effect)| effect)
         .peekable();

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use lamma_pddl::ast::{Condition, GroundAtom};
 use lamma_planner::interpreter::{GroundCondition, Interpreter, WorldState};
-use lamma_planner::partial_order::{TeamStep, literal_effects};
+use lamma_planner::partial_order::TeamStep;
 use lamma_planner::{FactId, Literal, Milestone, Need, all_before};
 
 use crate::bound::JointTask;
@@ -84,7 +84,7 @@ pub(crate) fn relied_on(
             let brings_about = |(condition, effect): (&GroundCondition, &Literal)| {
                 own.contains(effect) && interpreter.holds(&states[at], condition)
             };
-            if !literal_effects(&step.action).any(brings_about) {
+            if !step.action.literal_effects().any(brings_about) {
                 continue;
             }
             for earlier in before(later, wanted).into_iter().map(|before| &wanted[before].condition) {

@@ -1,6 +1,7 @@
 //! A shorter plan than the combined one, or the proof that there is none.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::Condition;
@@ -126,7 +127,7 @@ fn replan(
 fn scheduled(interpreter: &Interpreter, joint: &JointTask, schedule: &Schedule) -> Option<Vec<TeamStep>> {
     let step = |operator: OperatorId| {
         let action = interpreter.instantiate(&joint.task.act(operator)).ok()?;
-        Some(TeamStep { agent: joint.member_of[operator.index()] as usize, action })
+        Some(TeamStep { agent: joint.member_of[operator.index()] as usize, action: Arc::new(action) })
     };
     schedule.operators().map(step).collect()
 }

@@ -5,6 +5,7 @@
 //! Each robot then plans its segments itself, in its own domain.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::Name;
@@ -63,7 +64,7 @@ pub fn segments(
         let agent = act.args.first().and_then(|name| team.member(name));
         let agent = agent.ok_or_else(|| format!("nobody of the team does {act}"))?;
         let action = interpreter.instantiate(act).map_err(|e| e.to_string())?;
-        steps.push(TeamStep { agent, action });
+        steps.push(TeamStep { agent, action: Arc::new(action) });
     }
     let ground = interpreter.ground_condition(goal).map_err(|e| e.to_string())?;
     let order = deorder(interpreter, &world_state(facts), steps, &ground, &[])

@@ -88,8 +88,11 @@ impl Ord for Name {
         if Arc::ptr_eq(&self.text, &other.text) {
             return Ordering::Equal;
         }
-        let lower = |b: u8| b.to_ascii_lowercase();
-        self.text.bytes().map(lower).cmp(other.text.bytes().map(lower))
+        let (a, b) = (self.text.as_bytes(), other.text.as_bytes());
+        // Names are mostly spelt the same way: up to where they differ as they stand, case does not matter.
+        let same = a.iter().zip(b).take_while(|(x, y)| x == y).count();
+        let lower = |byte: &u8| byte.to_ascii_lowercase();
+        a[same..].iter().map(lower).cmp(b[same..].iter().map(lower))
     }
 }
 impl PartialOrd for Name {

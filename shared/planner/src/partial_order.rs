@@ -13,6 +13,7 @@
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, VecDeque};
+use std::sync::Arc;
 
 use crate::interpreter::{GroundAction, GroundCondition, Interpreter, Outcome, Violation, WorldState};
 use crate::plan::Literal;
@@ -23,7 +24,7 @@ pub struct TeamStep {
     /// Who does it: an index into the team.
     pub agent: usize,
     /// What is done.
-    pub action: GroundAction,
+    pub action: Arc<GroundAction>,
 }
 
 /// Steps in a valid linear order, and for each the steps that must come before it.
@@ -89,7 +90,23 @@ pub fn deorder_with(
     keep: &[(usize, usize)],
     relied_on: &[(usize, Literal)],
 ) -> Result<PartialOrder, (usize, Violation)> {
-    let (states, durations) = trace(interpreter, initial, &steps)?;
+    let states = trace(interpreter, initial, &steps)?;
+    deorder_along(interpreter, states, steps, goal, keep, relied_on)
+}
+
+/// [`deorder_with`] where the states that the plan passes are known: one before each step, and the last.
+pub fn deorder_along(
+    interpreter: &Interpreter,
+    states: Vec<WorldState>,
+    steps: Vec<TeamStep>,
+    goal: &GroundCondition,
+    keep: &[(usize, usize)],
+    relied_on: &[(usize, Literal)],
+) -> Result<PartialOrder, (usize, Violation)> {
+    let duration = |(i, step): (usize, &TeamStep)| {
+        interpreter.duration(&states[i], &step.action).map_err(|violation| (i, violation))
+    };
+    let durations = steps.iter().enumerate().map(duration).collect::<Result<_, _>>()?;
     let mut explainer = Explainer {
         states,
         before: vec![BTreeSet::new(); steps.len()],
@@ -119,16 +136,14 @@ fn trace(
     interpreter: &Interpreter,
     initial: &WorldState,
     steps: &[TeamStep],
-) -> Result<(Vec<WorldState>, Vec<f64>), (usize, Violation)> {
+) -> Result<Vec<WorldState>, (usize, Violation)> {
     let mut states = vec![initial.clone()];
-    let mut durations = Vec::with_capacity(steps.len());
     for (i, step) in steps.iter().enumerate() {
         let mut next = states[i].clone();
-        durations.push(interpreter.duration(&next, &step.action).map_err(|violation| (i, violation))?);
         interpreter.apply(&mut next, &step.action).map_err(|violation| (i, violation))?;
         states.push(next);
     }
-    Ok((states, durations))
+    Ok(states)
 }
 
 impl Explainer<'_> {
@@ -191,7 +206,8 @@ impl Explainer<'_> {
 
     /// What had to be true for the step to have that effect, beyond its precondition.
     fn reason_of_effect(&self, step: usize, literal: &Literal) -> Vec<Literal> {
-        literal_effects(&self.steps[step].action)
+        let effects = self.steps[step].action.effects_on(&literal.atom);
+        effects
             .filter(|(_, effect)| *effect == literal)
             .find_map(|(condition, _)| self.witness(step, condition))
             .unwrap_or_default()
@@ -254,14 +270,6 @@ impl Explainer<'_> {
     }
 }
 
-/// The effects on facts, each with its condition.
-pub fn literal_effects(action: &GroundAction) -> impl Iterator<Item = (&GroundCondition, &Literal)> {
-    action.effects.iter().filter_map(|effect| match &effect.outcome {
-        Outcome::Literal(literal) => Some((&effect.condition, literal)),
-        Outcome::Assign(..) => None,
-    })
-}
-
 /// Whether the action reads or changes a number.
 fn touches_numbers(action: &GroundAction) -> bool {
     fn compares(condition: &GroundCondition) -> bool {
@@ -297,16 +305,15 @@ fn undoing<'a>(
     action: &'a GroundAction,
     literal: &'a Literal,
 ) -> impl Iterator<Item = &'a GroundCondition> + 'a {
-    literal_effects(action)
-        .filter(move |(_, effect)| effect.atom == literal.atom && effect.holds != literal.holds)
-        .map(|(condition, _)| condition)
+    let effects = action.effects_on(&literal.atom);
+    effects.filter(|(_, effect)| effect.holds != literal.holds).map(|(condition, _)| condition)
 }
 
 /// Whether the action might make the literal false in some state. A delete that is always made good by an
 /// unconditional add of the same action does not count.
 fn can_undo(action: &GroundAction, literal: &Literal) -> bool {
     let makes_good = literal.holds
-        && literal_effects(action).any(|(condition, effect)| effect == literal && condition.is_true());
+        && action.effects_on(&literal.atom).any(|(condition, effect)| effect.holds && condition.is_true());
     !makes_good && undoing(action, literal).next().is_some()
 }
 

@@ -7,11 +7,12 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on says so by panicking")]
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::ast::{Condition, Domain, GroundAtom, Init, Problem, TypedName};
 use lamma_pddl::{Name, Source, parse_condition, parse_domain};
-use lamma_planner::partial_order::{TeamStep, deorder, deorder_with, literal_effects};
+use lamma_planner::partial_order::{TeamStep, deorder, deorder_with};
 use lamma_planner::{
     FactId, GroundAct, GroundCondition, GroundLimits, Interpreter, Literal, MakespanLimits, Milestone, Need,
     OperatorId, Plan, Scheduler, Task, WorldState, ground,
@@ -138,7 +139,9 @@ impl Order {
 
     /// What the step relies on for the sake of the order; `None` if it may not be done in that state.
     fn relied_on(&self, world: &World, state: &WorldState, step: &TeamStep) -> Option<Vec<Literal>> {
-        let brings_about = literal_effects(&step.action)
+        let brings_about = step
+            .action
+            .literal_effects()
             .any(|(when, effect)| self.later.contains(effect) && world.interpreter.holds(state, when));
         if brings_about { self.earlier.witness(state) } else { Some(Vec::new()) }
     }
@@ -151,7 +154,10 @@ fn brute_force(world: &World, goal: &Condition, asked: &Order, length: usize) ->
     let actions: Vec<TeamStep> = world
         .acts
         .iter()
-        .map(|(agent, act)| TeamStep { agent: *agent, action: world.interpreter.instantiate(act).unwrap() })
+        .map(|(agent, act)| TeamStep {
+            agent: *agent,
+            action: Arc::new(world.interpreter.instantiate(act).unwrap()),
+        })
         .collect();
     let mut best: Option<f64> = None;
     let mut open = vec![(Vec::new(), Vec::new(), world.initial.clone())];
@@ -221,7 +227,7 @@ proptest! {
             let mut steps = Vec::new();
             for operator in schedule.operators() {
                 let action = world.interpreter.instantiate(&task.act(operator)).unwrap();
-                steps.push(TeamStep { agent: of[operator.index()] as usize, action });
+                steps.push(TeamStep { agent: of[operator.index()] as usize, action: Arc::new(action) });
             }
             let ground = world.interpreter.ground_condition(&goal).unwrap();
             let order = deorder(&world.interpreter, &world.initial, steps, &ground, &[])
@@ -381,7 +387,7 @@ impl Carriers {
     ) -> Result<u32, TestCaseError> {
         let step = |&o: &OperatorId| {
             let action = self.interpreter.instantiate(&task.act(o)).unwrap();
-            TeamStep { agent: of[o.index()] as usize, action }
+            TeamStep { agent: of[o.index()] as usize, action: Arc::new(action) }
         };
         let initial = self.interpreter.initial(&self.init).unwrap();
         let goal = self.interpreter.ground_condition(goal).unwrap();

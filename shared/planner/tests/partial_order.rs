@@ -7,6 +7,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on says so by panicking")]
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use lamma_pddl::ast::{Condition, GroundAtom, Init, TypedName};
 use lamma_pddl::{Source, parse_condition, parse_domain, parse_ground_atom};
@@ -105,7 +106,7 @@ fn walk(world: &World, draws: &[usize]) -> Vec<TeamStep> {
         let (agent, act) = &world.acts[draw % world.acts.len()];
         let action = world.interpreter.instantiate(act).unwrap();
         if world.interpreter.apply(&mut state, &action).is_ok() {
-            steps.push(TeamStep { agent: *agent, action });
+            steps.push(TeamStep { agent: *agent, action: Arc::new(action) });
         }
     }
     steps
@@ -259,7 +260,7 @@ fn independent_robots_wait_for_nobody_and_a_hand_over_has_one_gate() {
     let steps = acts.iter().map(|(agent, text)| {
         let mut words = text.split(' ');
         let act = GroundAct::new(words.next().unwrap(), words);
-        TeamStep { agent: *agent, action: world.interpreter.instantiate(&act).unwrap() }
+        TeamStep { agent: *agent, action: Arc::new(world.interpreter.instantiate(&act).unwrap()) }
     });
     let goal = world.interpreter.ground_condition(&parse_condition("(in x b)").unwrap()).unwrap();
     let order = deorder(&world.interpreter, &world.initial, steps.collect(), &goal, &[]).unwrap();

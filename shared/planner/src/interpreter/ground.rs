@@ -1,5 +1,7 @@
 //! Replacing variables by objects, in one action or one condition at a time.
 
+use std::sync::OnceLock;
+
 use lamma_pddl::Name;
 use lamma_pddl::ast::{
     Action, AssignOp, Atom, Comparison, Condition, Effect, FunctionTerm, GroundAtom, NumericExpr, Term,
@@ -26,6 +28,18 @@ pub struct GroundAction {
     pub effects: Vec<GroundEffect>,
     /// How long it takes; the number 1 where the domain says nothing. See [`Interpreter::duration`].
     pub duration: GroundExpr,
+    by_fact: ByFact,
+}
+
+/// The effects on facts in the order of the facts, once somebody has asked: an action over all objects has thousands.
+#[derive(Clone, Debug, Default)]
+struct ByFact(OnceLock<Box<[u32]>>);
+
+/// It says nothing that the effects do not.
+impl PartialEq for ByFact {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// One outcome and when it happens.
@@ -47,6 +61,27 @@ pub enum Outcome {
 }
 
 impl GroundAction {
+    /// The effects on facts, each with its condition.
+    pub fn literal_effects(&self) -> impl Iterator<Item = (&GroundCondition, &Literal)> {
+        self.effects.iter().filter_map(GroundEffect::on_fact)
+    }
+
+    /// The effects on one fact, in their order, each with its condition.
+    pub fn effects_on(&self, fact: &GroundAtom) -> impl Iterator<Item = (&GroundCondition, &Literal)> {
+        let effect = |index: &u32| self.effects[*index as usize].on_fact();
+        let by_fact = self.by_fact.0.get_or_init(|| {
+            let all = 0..self.effects.len() as u32;
+            let mut all: Vec<u32> = all.filter(|index| effect(index).is_some()).collect();
+            all.sort_by_key(|index| effect(index).map(|(_, literal)| &literal.atom));
+            all.into()
+        });
+        let start =
+            by_fact.partition_point(|i| effect(i).is_some_and(|(_, literal)| literal.atom.cmp(fact).is_lt()));
+        let rest = by_fact[start..].iter();
+        rest.filter_map(move |i| self.effects[*i as usize].on_fact())
+            .take_while(move |(_, literal)| literal.atom == *fact)
+    }
+
     /// What happens in this state, all of it worked out before any of it happens.
     pub(super) fn evaluate(&self, view: &View<'_>) -> Result<Effects, Violation> {
         let mut effects = Effects::default();
@@ -64,6 +99,15 @@ impl GroundAction {
             }
         }
         Ok(effects)
+    }
+}
+
+impl GroundEffect {
+    fn on_fact(&self) -> Option<(&GroundCondition, &Literal)> {
+        match &self.outcome {
+            Outcome::Literal(literal) => Some((&self.condition, literal)),
+            Outcome::Assign(..) => None,
+        }
     }
 }
 
@@ -111,7 +155,7 @@ impl<'i> Grounder<'i> {
         let mut effects = Vec::new();
         self.effect(&action.effect, &GroundCondition::TRUE, &mut effects)?;
         let duration = action.duration.as_ref().map_or(GroundExpr::Number(1.0), |e| self.expression(e));
-        Some(GroundAction { act: act.clone(), precondition, effects, duration })
+        Some(GroundAction { act: act.clone(), precondition, effects, duration, by_fact: ByFact::default() })
     }
 
     pub fn condition(&mut self, condition: &Condition, positive: bool) -> Option<GroundCondition> {
