@@ -25,10 +25,17 @@ const MEMORY: usize = 3 << 30;
 /// Bounds of each search for a reason: without one, "infeasible" is still true.
 const REASON_EXPANSIONS: u64 = 20_000;
 
-/// What may be spent on a shorter schedule beyond the limits for each operator of the task, and at most: what it
-/// takes to look at a part of a schedule grows with the operators.
+/// What may be spent on a shorter schedule beyond the limits for each operator of the task: what it takes to look at a
+/// part of a schedule grows with the operators, how much there is to gain with the steps, and how hard that is to find
+/// with both. So long schedules get much more than short ones.
 const WORK_PER_OPERATOR: u64 = 1_000;
+const WORK_PER_OPERATOR_AND_STEPS_SQUARED: u64 = 3;
+
+/// And at most: some seconds.
 const MOST_WORK: u64 = 20_000_000;
+
+/// A formula may have a literal for so much work: it takes a unit to load one, and it is to be solved, too.
+const WORK_PER_LITERAL: u64 = 4;
 
 /// What there is to plan.
 #[derive(Clone, Debug)]
@@ -67,17 +74,20 @@ pub fn plan_jointly(input: &JointInput, cancel: &AtomicBool) -> Result<JointPlan
     let plan = search(input, &joint.task, countdown, cancel)?;
     let interpreter = team.interpreter().map_err(|e| gave_up(&e))?;
     let order = explain(input, &interpreter, &plan).map_err(|why| gave_up(&why))?;
-    let limits = within(&input.makespan, joint.task.operators.len(), countdown);
+    let steps = order.makespan() as u64;
+    let limits = within(&input.makespan, joint.task.operators.len() as u64, steps, countdown);
     let (order, bound) = improve(input, &interpreter, &joint, &plan, order, &limits, cancel);
     Ok(handed_out(input, &interpreter, &order, f64::from(bound)))
 }
 
-/// The limits for a task of so many operators, and no longer than half of what is left: the plan is still to be
-/// carried out.
-fn within(limits: &MakespanLimits, operators: usize, countdown: Countdown) -> MakespanLimits {
+/// The limits for a task of so many operators and a plan of so many steps, and no longer than half of what is left: the
+/// plan is still to be carried out.
+fn within(limits: &MakespanLimits, operators: u64, steps: u64, countdown: Countdown) -> MakespanLimits {
     let time = [limits.time, countdown.left().map(|left| left / 2)].into_iter().flatten().min();
-    let work = limits.work.saturating_add((operators as u64 * WORK_PER_OPERATOR).min(MOST_WORK));
-    MakespanLimits { time, work, ..limits.clone() }
+    let by_steps = WORK_PER_OPERATOR_AND_STEPS_SQUARED.saturating_mul(steps.saturating_mul(steps));
+    let more = operators.saturating_mul(by_steps.max(WORK_PER_OPERATOR)).min(MOST_WORK);
+    let size = limits.size.max(more / WORK_PER_LITERAL);
+    MakespanLimits { time, work: limits.work.saturating_add(more), size, ..limits.clone() }
 }
 
 /// The shortest order found and a proved bound, within the limits.
