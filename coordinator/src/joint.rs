@@ -25,14 +25,16 @@ const MEMORY: usize = 3 << 30;
 /// Bounds of each search for a reason: without one, "infeasible" is still true.
 const REASON_EXPANSIONS: u64 = 20_000;
 
-/// What may be spent on a shorter schedule beyond the limits for each operator of the task: what it takes to look at a
-/// part of a schedule grows with the operators, how much there is to gain with the steps, and how hard that is to find
-/// with both. So long schedules get much more than short ones.
+/// What may be spent on a shorter schedule beyond the limits, at least, for each operator of the task, and at most:
+/// tenths of a second, and some seconds.
+const LEAST_WORK: u64 = 1_000_000;
 const WORK_PER_OPERATOR: u64 = 1_000;
-const WORK_PER_OPERATOR_AND_STEPS_SQUARED: u64 = 3;
+const MOST_WORK: u64 = 25_000_000;
 
-/// And at most: some seconds.
-const MOST_WORK: u64 = 20_000_000;
+/// Long schedules of large tasks get more than that: the square of (operators times squared steps, divided by this). What
+/// it takes to look at a part of a schedule grows with the operators, and how much there is to gain with the steps; so
+/// half of the tasks of a set take tenths of a second, and those that are worth it some seconds.
+const LENGTH_UNIT: u64 = 500;
 
 /// A formula may have a literal for so much work: it takes a unit to load one, and it is to be solved, too.
 const WORK_PER_LITERAL: u64 = 4;
@@ -84,8 +86,9 @@ pub fn plan_jointly(input: &JointInput, cancel: &AtomicBool) -> Result<JointPlan
 /// plan is still to be carried out.
 fn within(limits: &MakespanLimits, operators: u64, steps: u64, countdown: Countdown) -> MakespanLimits {
     let time = [limits.time, countdown.left().map(|left| left / 2)].into_iter().flatten().min();
-    let by_steps = WORK_PER_OPERATOR_AND_STEPS_SQUARED.saturating_mul(steps.saturating_mul(steps));
-    let more = operators.saturating_mul(by_steps.max(WORK_PER_OPERATOR)).min(MOST_WORK);
+    let length = operators.saturating_mul(steps.saturating_mul(steps)) / LENGTH_UNIT;
+    let more = LEAST_WORK.max(operators.saturating_mul(WORK_PER_OPERATOR)).max(length.saturating_mul(length));
+    let more = more.min(MOST_WORK);
     let size = limits.size.max(more / WORK_PER_LITERAL);
     MakespanLimits { time, work: limits.work.saturating_add(more), size, ..limits.clone() }
 }

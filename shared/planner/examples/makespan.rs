@@ -106,8 +106,9 @@ fn one(domain: &Path, problem: &Path, work: u64) -> Result<Row, String> {
     let found = processor_time() - start;
     let first = plan.as_ref().and_then(|plan| scheduler.makespan_of(plan));
     // As the coordinator does it.
-    let by_steps = 3 * u64::from(first.unwrap_or(0)).pow(2);
-    let more = (task.operators.len() as u64 * by_steps.max(1000)).min(20_000_000);
+    let operators = task.operators.len() as u64;
+    let length = operators * u64::from(first.unwrap_or(0)).pow(2) / 500;
+    let more = (operators * 1_000).max(length.saturating_mul(length)).clamp(1_000_000, 25_000_000);
     let size = if work > 0 { 60_000_000 } else { 1_000_000.max(more / 4) };
     let work = if work > 0 { work } else { 500_000 + more };
     let limits = MakespanLimits { conflicts: u64::MAX, size, work, time: None };

@@ -7,7 +7,9 @@ use std::collections::BTreeSet;
 use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::{Source, parse_domain, parse_problem};
-use lamma_planner::{GroundLimits, Limits, MakespanLimits, OperatorId, Outcome, Scheduler, Task, ground, solve};
+use lamma_planner::{
+    GroundLimits, Limits, MakespanLimits, OperatorId, Outcome, Scheduler, Task, ground, solve,
+};
 use proptest::prelude::*;
 
 const DOMAIN: &str = "(define (domain vans)
@@ -187,7 +189,8 @@ fn many_errands_are_shared_out() {
     let act = |text: String| operators(&task).find(|&o| task.act(o).to_string() == text).unwrap();
     let tour = |b: &String| {
         let drive = |from: &str, to: &str| format!("(drive v {from} {to} l l)");
-        let there = [format!("(load v {b} a)"), drive("a", "b"), drive("b", "c"), format!("(unload v {b} c)")];
+        let there =
+            [format!("(load v {b} a)"), drive("a", "b"), drive("b", "c"), format!("(unload v {b} c)")];
         there.into_iter().chain([drive("c", "b"), drive("b", "a")]).map(act).collect::<Vec<_>>()
     };
     let alone: Vec<OperatorId> = boxes.iter().flat_map(tour).collect();
