@@ -27,7 +27,7 @@ const REASON_EXPANSIONS: u64 = 20_000;
 
 /// What may be spent on a shorter schedule beyond the limits, at least, for each operator of the task, and at most:
 /// tenths of a second, and some seconds.
-const LEAST_WORK: u64 = 1_000_000;
+const LEAST_WORK: u64 = 1_500_000;
 const WORK_PER_OPERATOR: u64 = 1_000;
 const MOST_WORK: u64 = 25_000_000;
 
