@@ -13,8 +13,7 @@ use std::time::Duration;
 
 use lamma_pddl::{Name, Source, parse_domain, parse_problem};
 use lamma_planner::{
-    GroundLimits, Limits, MakespanLimits, OperatorId, Outcome, Scheduler, SearchOptions, Task, ground,
-    search::spread, solve,
+    GroundLimits, Limits, MakespanLimits, OperatorId, Outcome, Scheduler, SearchOptions, Task, ground, solve,
 };
 
 /// How long to look for a first plan.
@@ -45,8 +44,6 @@ struct Row {
     bound: u32,
     /// Of the plan found first, and when that was.
     first: Option<(u32, f64)>,
-    /// Of the plan that gives all agents something to do.
-    spread: Option<u32>,
     makespan: Option<u32>,
     seconds: f64,
 }
@@ -56,10 +53,9 @@ impl Row {
         let number = |n: Option<f64>| n.map_or("-".into(), |n| format!("{n}"));
         let (first, found) = self.first.unzip();
         format!(
-            "best {} first {} spread {} makespan {} bound {} floor {} | plan {:.2}s all {:.2}s | agents {} ({})",
+            "best {} first {} makespan {} bound {} floor {} | plan {:.2}s all {:.2}s | agents {} ({})",
             number(best),
             number(first.map(f64::from)),
-            number(self.spread.map(f64::from)),
             number(self.makespan.map(f64::from)),
             self.bound,
             self.floor,
@@ -109,10 +105,13 @@ fn one(domain: &Path, problem: &Path, work: u64) -> Result<Row, String> {
     };
     let found = processor_time() - start;
     let first = plan.as_ref().and_then(|plan| scheduler.makespan_of(plan));
-    let expansions = Some(16_000_000 / task.operators.len().max(1) as u64);
-    let few = Limits { expansions, ..Limits::default() };
-    let spread = spread(&task, &agent_of, &few, &cancel).and_then(|plan| scheduler.makespan_of(&plan));
-    let limits = MakespanLimits { conflicts: u64::MAX, size: 60_000_000, work, time: None };
+    // As the coordinator does it.
+    let operators = task.operators.len() as u64;
+    let length = operators * u64::from(first.unwrap_or(0)).pow(2) / 500;
+    let more = (operators * 1_000).max(length.saturating_mul(length)).clamp(1_500_000, 25_000_000);
+    let size = if work > 0 { 60_000_000 } else { 1_000_000.max(more / 4) };
+    let work = if work > 0 { work } else { 500_000 + more };
+    let limits = MakespanLimits { conflicts: u64::MAX, size, work, time: None };
     let never = AtomicBool::new(false);
     let proof = match (&plan, first) {
         (Some(plan), Some(first)) => scheduler.improve(plan, first, floor, &limits, &never),
@@ -125,7 +124,6 @@ fn one(domain: &Path, problem: &Path, work: u64) -> Result<Row, String> {
         floor,
         bound: proof.lower_bound.unwrap_or(0),
         first: first.map(|first| (first, found)),
-        spread,
         makespan: shorter.or(first),
         seconds: processor_time() - start,
     })

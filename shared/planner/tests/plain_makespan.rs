@@ -7,7 +7,9 @@ use std::collections::BTreeSet;
 use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::{Source, parse_domain, parse_problem};
-use lamma_planner::{GroundLimits, MakespanLimits, OperatorId, Scheduler, Task, ground};
+use lamma_planner::{
+    GroundLimits, Limits, MakespanLimits, OperatorId, Outcome, Scheduler, Task, ground, solve,
+};
 use proptest::prelude::*;
 
 const DOMAIN: &str = "(define (domain vans)
@@ -45,6 +47,10 @@ fn task(vans: [usize; 2], fuel: [usize; 2], from: [usize; 2], to: [usize; 2]) ->
         at(to[0]),
         at(to[1]),
     );
+    grounded(problem)
+}
+
+fn grounded(problem: String) -> Task {
     let domain = parse_domain(&Source::new("vans.pddl", DOMAIN)).unwrap().value;
     let problem = parse_problem(&Source::new("p.pddl", problem)).unwrap().value;
     ground(&domain, &problem, &GroundLimits::default()).unwrap()
@@ -104,6 +110,14 @@ fn fewest(task: &Task) -> Option<u32> {
     None
 }
 
+/// The plan found first.
+fn first(task: &Task) -> Option<Vec<OperatorId>> {
+    match solve(task, &Default::default(), &Limits::default(), &AtomicBool::new(false)) {
+        Outcome::Found(plan) => task.trace(&plan),
+        Outcome::Unsolvable(_) | Outcome::GaveUp(_) => None,
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -126,6 +140,26 @@ proptest! {
         prop_assert_eq!(shortest.lower_bound, Some(fewest));
         prop_assert_eq!(shortest.schedule.map(|schedule| schedule.makespan()), Some(fewest));
     }
+
+    #[test]
+    fn a_plan_gets_no_longer_and_stays_a_plan(
+        vans in [0usize..3, 0usize..3], fuel in [0usize..5, 0usize..5], from in [0usize..3, 0usize..3],
+        to in [0usize..3, 0usize..3], work in 0u64..300_000
+    ) {
+        let task = task(vans, fuel, from, to);
+        let (Some(plan), Some(fewest)) = (first(&task), fewest(&task)) else { return Ok(()) };
+        let scheduler = Scheduler::new(&task, &agents(&task)).unwrap();
+        let before = scheduler.makespan_of(&plan).unwrap();
+        let limits = MakespanLimits { work, ..MakespanLimits::default() };
+        let found = scheduler.improve(&plan, before, 0, &limits, &AtomicBool::new(false));
+        prop_assert!(found.lower_bound.is_some_and(|bound| bound <= fewest));
+        if let Some(schedule) = found.schedule {
+            let operators: Vec<OperatorId> = schedule.operators().collect();
+            prop_assert!(after(&task, &task.init, &operators).is_some_and(|end| task.is_goal(&end)));
+            prop_assert!((fewest..before).contains(&schedule.makespan()));
+            prop_assert_eq!(scheduler.makespan_of(&operators), Some(schedule.makespan()));
+        }
+    }
 }
 
 #[test]
@@ -136,4 +170,34 @@ fn what_one_van_must_do_one_after_the_other_is_seen_to_take_that_long() {
     assert_eq!(fewest(&task), Some(7));
     // Without exclusions: load, drive, unload.
     assert!(scheduler.depth() > 3, "{}", scheduler.depth());
+}
+
+#[test]
+fn many_errands_are_shared_out() {
+    // Twenty boxes, one at a time: a tour of six steps for each, and no drive home after the last.
+    let boxes: Vec<String> = (0..20).map(|i| format!("b{i}")).collect();
+    let all = |text: &dyn Fn(&String) -> String| boxes.iter().map(text).collect::<String>();
+    let task = grounded(format!(
+        "(define (problem p) (:domain vans) (:objects v w - van {}- box a b c - place l - level)
+          (:init (at v a) (at w a) (fuel v l) (fuel w l) (less l l) (empty v) (empty w)
+            (road a b) (road b a) (road b c) (road c b) {})
+          (:goal (and {})))",
+        all(&|b| format!("{b} ")),
+        all(&|b| format!("(in {b} a)")),
+        all(&|b| format!("(in {b} c)")),
+    ));
+    let act = |text: String| operators(&task).find(|&o| task.act(o).to_string() == text).unwrap();
+    let tour = |b: &String| {
+        let drive = |from: &str, to: &str| format!("(drive v {from} {to} l l)");
+        let there =
+            [format!("(load v {b} a)"), drive("a", "b"), drive("b", "c"), format!("(unload v {b} c)")];
+        there.into_iter().chain([drive("c", "b"), drive("b", "a")]).map(act).collect::<Vec<_>>()
+    };
+    let alone: Vec<OperatorId> = boxes.iter().flat_map(tour).collect();
+    let scheduler = Scheduler::new(&task, &agents(&task)).unwrap();
+    let before = scheduler.makespan_of(&alone).unwrap();
+    assert_eq!(before, 120);
+    let limits = MakespanLimits { work: 100_000, ..MakespanLimits::default() };
+    let found = scheduler.improve(&alone, before, 0, &limits, &AtomicBool::new(false));
+    assert_eq!(found.schedule.map(|schedule| schedule.makespan()), Some(58));
 }

@@ -2,10 +2,11 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::auction::Auction;
 use super::sat::{Found, Fuel};
 use super::windows::{Windows, leads_to};
 use super::{Answer, Asked, Makespan, MakespanLimits, Schedule, Scheduler};
-use crate::search::{Limits, spread};
+use crate::search::{Limits, eliminate, spread};
 use crate::task::OperatorId;
 
 /// Work of the first round; each round does twice as much.
@@ -14,8 +15,15 @@ const ROUND: u64 = 200_000;
 /// The most work that a plan of another kind may take.
 const SPREAD: u64 = 4_000_000;
 
-/// Operators looked at that count as a unit of work.
+/// The most work that a first plan goal by goal may take.
+const FIRST_AUCTION: u64 = 10_000_000;
+
+/// Operators looked at that count as a unit of work, where all of the goal is wanted, and where a part of it is.
 const OPERATORS_A_UNIT: u64 = 4;
+const OPERATORS_A_UNIT_OF_BIDS: u64 = 12;
+
+/// Operators that a look for a bid counts for at least: the schedule is worked out anew for each.
+const A_BID_AT_LEAST: usize = 1_000;
 
 impl Scheduler<'_> {
     /// Shortens the schedule of the linear plan `plan` and raises the proved bound `from`, in turns, until they
@@ -35,20 +43,24 @@ impl Scheduler<'_> {
         let mut bound = from.max(self.depth());
         let mut windows = Windows::new(self, plan.to_vec(), bound);
         let before = windows.order.makespan;
-        if before > bound
-            && let Some(plan) = self.spread(limits, cancel)
-        {
-            let rival = Windows::new(self, plan, bound);
-            if rival.order.makespan < before {
-                windows = rival;
-            }
+        let mut auction = None;
+        if before > bound {
+            self.rival(self.spread(limits, cancel), &mut windows);
+            auction = Auction::new(self.task, &self.model.agent_of, plan, limits.time, cancel);
         }
         let mut best = None;
         let mut all = Fuel::new(&MakespanLimits { conflicts: u64::MAX, ..limits.clone() }, cancel);
+        if let Some(auction) = &mut auction {
+            self.auction(auction, FIRST_AUCTION, &mut windows, &mut all);
+        }
         let mut round = ROUND;
-        let mut asked = None;
+        let (mut asked, mut too_large) = (None, false);
         while bound < windows.order.makespan && !all.is_empty() {
-            best = all.slice(round, |fuel| self.raise(&mut bound, windows.order.makespan, &mut asked, fuel));
+            if let Some(auction) = &mut auction {
+                self.auction(auction, round / 2, &mut windows, &mut all);
+            }
+            let question = (&mut asked, &mut too_large);
+            best = all.slice(round, |fuel| self.raise(&mut bound, windows.order.makespan, question, fuel));
             if best.is_some() {
                 break;
             }
@@ -62,20 +74,49 @@ impl Scheduler<'_> {
         Makespan { lower_bound: Some(bound), schedule: best }
     }
 
+    /// Goes on from another plan, if its schedule is shorter.
+    fn rival<'a>(&'a self, plan: Option<Vec<OperatorId>>, windows: &mut Windows<'a>) {
+        let Some(plan) = plan else { return };
+        let rival = Windows::new(self, eliminate(self.task, plan), windows.bound);
+        if rival.order.makespan < windows.order.makespan {
+            *windows = rival;
+        }
+    }
+
+    /// Looks for a better way to give away the goals, with no more than so much work.
+    fn auction<'a>(
+        &'a self,
+        auction: &mut Auction<'_>,
+        work: u64,
+        windows: &mut Windows<'a>,
+        fuel: &mut Fuel<'_>,
+    ) {
+        let operators = self.task.operators.len().max(A_BID_AT_LEAST) as u64;
+        let looks = work.min(fuel.work) * OPERATORS_A_UNIT_OF_BIDS / operators;
+        let spent = auction.run(looks);
+        self.rival(auction.plan().map(<[_]>::to_vec), windows);
+        fuel.work = fuel.work.saturating_sub(spent * operators / OPERATORS_A_UNIT_OF_BIDS);
+    }
+
     /// Raises the bound while that takes no more than the fuel; or a shortest schedule. `asked` is the formula for the
-    /// bound, if it was asked before: the solver goes on where it stopped.
+    /// bound, if it was asked before: the solver goes on where it stopped. `too_large` says that there cannot be one.
     fn raise<'f>(
         &self,
         bound: &mut u32,
         below: u32,
-        asked: &mut Option<Asked<'f>>,
+        (asked, too_large): (&mut Option<Asked<'f>>, &mut bool),
         fuel: &mut Fuel<'f>,
     ) -> Option<Schedule> {
-        while *bound < below && !fuel.is_empty() {
+        while *bound < below && !*too_large && !fuel.is_empty() {
             if asked.is_none() {
                 *asked = self.formula(&self.reach, &self.model.goal, &self.relevant, *bound, fuel);
             }
-            match asked.as_mut()?.ask(fuel) {
+            let Some(question) = asked else {
+                // Too large now is too large later.
+                *too_large = true;
+                return None;
+            };
+            match question.ask(fuel) {
                 (Found::Contradiction, _) => *bound += 1,
                 (Found::Stopped, _) => return None,
                 (Found::Model, steps) => {

@@ -6,6 +6,7 @@
 //! the question "is there a schedule?" is a propositional formula ([`formula`]); that it has no model proves
 //! that no plan of the team is so short.
 
+mod auction;
 mod formula;
 mod improve;
 mod layers;
@@ -247,7 +248,11 @@ impl<'a> Scheduler<'a> {
         if operators as u64 * LITERALS_PER_OPERATOR > fuel.size {
             return None;
         }
-        let formula = formula::formula(&self.model, &self.together, &layers, goal, fuel)?;
+        let Some(formula) = formula::formula(&self.model, &self.together, &layers, goal, fuel) else {
+            // It was built until it got too large.
+            fuel.work = fuel.work.saturating_sub(fuel.size);
+            return None;
+        };
         Some(Asked { question: formula.clauses.question(fuel)?, operators: formula.operators })
     }
 

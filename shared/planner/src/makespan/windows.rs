@@ -23,6 +23,9 @@ const NARROW: u32 = 4;
 /// Conflicts of the solver for one window, at first.
 const CONFLICTS: u64 = 1_000;
 
+/// Operators that cost a unit of work to see whether they can be reached.
+const OPERATORS_A_UNIT: u64 = 8;
+
 /// Who may do something new in a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Who {
@@ -159,6 +162,8 @@ impl<'a> Windows<'a> {
         let Scheduler { task, model, waiting, .. } = self.scheduler;
         let holds = |lit: Lit| model.holds(task, &window.state, lit);
         let reach = Reach::new(model, waiting, holds, window.steps - 1);
+        // Looking at what can be reached is not free, either.
+        fuel.work = fuel.work.saturating_sub(model.agent_of.len() as u64 / OPERATORS_A_UNIT);
         let goal = model.literals(&window.goal);
         let depth = reach.goal(&goal);
         let allowed = self.allowed(window, who);

@@ -22,14 +22,15 @@ use lamma_pddl::ast::{Domain, Problem};
 pub use anytime::{Anytime, solve_anytime};
 pub use conflict::never_together;
 pub(crate) use improve::eliminate;
+pub(crate) use limits::Meter;
 pub use limits::{Countdown, GaveUp, Limits, Outcome, Unsolvable};
 pub use spread::spread;
+pub(crate) use spread::{Errand, Spreader};
 
 use crate::ground::{GroundError, ground};
 use crate::heuristic::{Blind, Costs, Graph, Heuristic, LandmarkCut, Relaxation};
 use crate::successor::Successors;
 use crate::task::{OperatorId, Task};
-use limits::Meter;
 
 /// How far a search came in its slice.
 enum Progress {

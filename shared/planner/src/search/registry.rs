@@ -22,13 +22,18 @@ pub(crate) struct Registry {
 
 impl Registry {
     pub fn new(task: &Task) -> Self {
+        Self::starting_in(task, &task.init)
+    }
+
+    /// A registry whose first state is another one.
+    pub fn starting_in(task: &Task, start: &[u64]) -> Self {
         let mut registry = Registry {
             words: task.state_words(),
             arena: Vec::new(),
             table: IdTable::default(),
             origin: Vec::new(),
         };
-        registry.insert(&task.init, StateId(0), OperatorId(NO_OPERATOR));
+        registry.insert(start, StateId(0), OperatorId(NO_OPERATOR));
         registry
     }
 
