@@ -22,13 +22,18 @@ pub(crate) struct Registry {
 
 impl Registry {
     pub fn new(task: &Task) -> Self {
+        Self::rooted(task, &task.init)
+    }
+
+    /// A registry whose first state is another than the initial one.
+    pub fn rooted(task: &Task, root: &[u64]) -> Self {
         let mut registry = Registry {
             words: task.state_words(),
             arena: Vec::new(),
             table: IdTable::default(),
             origin: Vec::new(),
         };
-        registry.insert(&task.init, StateId(0), OperatorId(NO_OPERATOR));
+        registry.insert(root, StateId(0), OperatorId(NO_OPERATOR));
         registry
     }
 
