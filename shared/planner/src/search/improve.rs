@@ -15,8 +15,10 @@ use crate::task::{OperatorId, Task};
 const PREPARATION: u64 = 250;
 const WORK: u64 = 2;
 
-/// What may be spent in any case is a share of this: a small part of starting a process.
-const START: u64 = 150_000;
+/// What searching again for the whole plan may take, in parts of the relaxed task looked at, and what is counted for each
+/// state besides. It finds the best plan of a small task and is next to nothing for a large one.
+const AGAIN: u64 = 200_000;
+const STATE: u64 = 1_000;
 
 /// One part in so many of what everything took may be spent on top.
 const SHARE: u64 = 2;
@@ -43,8 +45,10 @@ impl<'t> Improver<'_, 't> {
         match effort {
             Effort::States(states) => self.search_again(best, states, meter),
             Effort::Share(work) => {
+                let states = AGAIN / (self.graph.size() as u64 + STATE);
+                let best = self.search_again(best, states, meter);
                 let preparation = PREPARATION * self.graph.size() as u64;
-                let work = work.saturating_mul(WORK).saturating_add(preparation + START) / SHARE;
+                let work = work.saturating_mul(WORK).saturating_add(preparation) / SHARE;
                 let mut relaxation = self.relaxation();
                 let mut windows = Windows::new(self.task, &mut relaxation, work);
                 eliminate(self.task, windows.improve(best, meter))

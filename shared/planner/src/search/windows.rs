@@ -150,7 +150,9 @@ impl<'a, 't> Windows<'a, 't> {
         let mut done = Vec::new();
         while !open.is_empty() {
             let start = open.len().saturating_sub(length);
-            if let Some(better) = self.replace(&states[start], &open[start..], &needs, meter) {
+            if self.work > 0
+                && let Some(better) = self.replace(&states[start], &open[start..], &needs, meter)
+            {
                 let tail = states_along(self.task, &states[start], &better);
                 states.truncate(start);
                 states.extend(tail);
@@ -225,7 +227,10 @@ impl<'a, 't> Windows<'a, 't> {
             if cost != node.cost {
                 continue;
             }
-            if self.work == 0 || nodes.len() >= self.most || meter.expand(|| registry.bytes()).is_err() {
+            if meter.expand(|| registry.bytes()).is_err() {
+                self.work = 0;
+            }
+            if self.work == 0 || nodes.len() >= self.most {
                 self.cut = true;
                 return None;
             }
