@@ -2,6 +2,7 @@
 
 mod answer;
 
+use std::mem::ManuallyDrop;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -81,11 +82,12 @@ fn search_and_tell(
     limits: &Limits,
     answer: &Mutex<Answer>,
 ) -> Result<u8, Failure> {
-    let task = read_task(&args.domain, &args.problem)?;
+    // The process ends with this call: giving back what these hold piece by piece would be time lost.
+    let task = ManuallyDrop::new(read_task(&args.domain, &args.problem)?);
     let told = || answer.lock().unwrap_or_else(PoisonError::into_inner);
     told().read(&task);
     let grounded = match ground(&task.domain, &task.problem, &GroundLimits::default()) {
-        Ok(grounded) => grounded,
+        Ok(grounded) => ManuallyDrop::new(grounded),
         Err(error @ (GroundError::Malformed(_) | GroundError::Unsupported(_))) => {
             return Err(Failure::bad_input(error));
         }

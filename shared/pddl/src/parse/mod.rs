@@ -160,7 +160,9 @@ impl Parser {
     /// `word` as a name spelt `text`, if it is made of the letters PDDL allows.
     fn spelling(&mut self, word: Word<'_>, text: &str) -> Option<Name> {
         let allowed = |c: char| c.is_ascii_alphanumeric() || "-_.@#$%&*+/<=>!^~|[]{}".contains(c);
-        let bad_character = text.char_indices().find(|(at, c)| !(allowed(*c) || (*at == 0 && *c == '?')));
+        let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'-' || byte == b'_';
+        let mut unusual = text.char_indices().filter(|(_, c)| !u8::try_from(*c).is_ok_and(is_plain));
+        let bad_character = unusual.find(|(at, c)| !(allowed(*c) || (*at == 0 && *c == '?')));
         if let Some((offset, bad)) = bad_character {
             let start = word.span.end as usize - text.len() + offset;
             let place = Span::new(start, start + bad.len_utf8());

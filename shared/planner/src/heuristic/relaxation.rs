@@ -72,7 +72,8 @@ pub struct Relaxation<'a> {
     plain: Vec<u32>,
     /// The nodes with many conditions before anything is reached.
     fresh: Vec<Wait>,
-    goal: Vec<FactId>,
+    /// What is to be reached: the goal of the task, unless told otherwise.
+    goals: Vec<FactId>,
     is_goal: Vec<bool>,
     // The rest is work space, valid for the state evaluated last.
     labels: Vec<Label>,
@@ -121,17 +122,25 @@ impl<'a> Relaxation<'a> {
             relaxed_plan: Vec::new(),
             relaxed_facts: Vec::new(),
             graph,
-            goal: task.goal.clone(),
+            goals: task.goal.clone(),
             is_goal,
         }
     }
 
-    /// Another goal than the task's from now on; no fact is in it twice.
-    pub(crate) fn set_goal(&mut self, goal: &[FactId]) {
-        self.goal.iter().for_each(|fact| self.is_goal[fact.index()] = false);
-        goal.iter().for_each(|fact| self.is_goal[fact.index()] = true);
-        self.goal.clear();
-        self.goal.extend_from_slice(goal);
+    /// Other facts to reach from now on, without doubles. Those that no condition and not the task's goal asks for are
+    /// left out: nothing leads to them here.
+    pub(crate) fn set_goals(&mut self, goals: impl Iterator<Item = FactId>) {
+        let (graph, task) = (&self.graph, self.task);
+        let is_asked =
+            |fact: &FactId| !graph.waiting.row(fact.index()).is_empty() || task.goal.contains(fact);
+        self.goals.drain(..).for_each(|fact| self.is_goal[fact.index()] = false);
+        self.goals.extend(goals.filter(is_asked));
+        self.goals.iter().for_each(|fact| self.is_goal[fact.index()] = true);
+    }
+
+    /// What one estimate costs, roughly in nanoseconds.
+    pub(crate) fn work(&self) -> u64 {
+        2 * self.graph.size() as u64 + 1000
     }
 
     /// Other costs of operators from now on.
@@ -148,7 +157,7 @@ impl<'a> Relaxation<'a> {
     /// `MAX`: a node costs as much as its dearest condition; else as all of them together.
     fn propagate<const MAX: bool>(&mut self, state: &[u64], exhaustive: bool) {
         // Plain locals: this loop is where searches spend their time.
-        let Self { task, graph, plain, fresh, base, waits, labels, queue, goal, is_goal, .. } = self;
+        let Self { task, graph, plain, fresh, base, waits, labels, queue, goals, is_goal, .. } = self;
         let graph = &**graph;
         labels.fill(Label { cost: UNREACHED, supporter: NO_NODE, done: false });
         waits.copy_from_slice(fresh);
@@ -169,7 +178,7 @@ impl<'a> Relaxation<'a> {
         };
         graph.free_nodes.iter().for_each(|&node| fire(labels, queue, node, 0));
         let triggers = &graph.triggers;
-        let mut goals = goal.len();
+        let mut goals = goals.len();
         while let Some((cost, fact)) = queue.pop() {
             if labels[fact.index()].cost != cost || std::mem::replace(&mut labels[fact.index()].done, true) {
                 continue;
@@ -212,14 +221,14 @@ impl<'a> Relaxation<'a> {
     /// h_max of a state with this graph's costs; `None` if the goal is out of reach.
     pub fn hmax(&mut self, state: &[u64]) -> Option<u32> {
         self.propagate::<true>(state, false);
-        let dearest = self.goal.iter().map(|fact| self.labels[fact.index()].cost).max().unwrap_or(0);
+        let dearest = self.goals.iter().map(|fact| self.labels[fact.index()].cost).max().unwrap_or(0);
         (dearest != UNREACHED).then_some(dearest)
     }
 
     /// The goal facts that cannot be reached from a state even if nothing is ever deleted.
     pub fn unreachable_goals(&mut self, state: &[u64]) -> Vec<FactId> {
         self.propagate::<true>(state, true);
-        let goal = self.goal.iter();
+        let goal = self.goals.iter();
         goal.copied().filter(|fact| self.labels[fact.index()].cost == UNREACHED).collect()
     }
 
@@ -238,7 +247,7 @@ impl<'a> Relaxation<'a> {
         self.propagate::<false>(state, false);
         self.relaxed_plan.clear();
         self.relaxed_facts.clear();
-        if self.goal.iter().any(|fact| self.labels[fact.index()].cost == UNREACHED) {
+        if self.goals.iter().any(|fact| self.labels[fact.index()].cost == UNREACHED) {
             return None;
         }
         self.marked_facts.clear();
@@ -246,7 +255,7 @@ impl<'a> Relaxation<'a> {
         self.marked_operators.clear();
         let mut total = 0u32;
         self.agenda.clear();
-        self.agenda.extend_from_slice(&self.goal);
+        self.agenda.extend_from_slice(&self.goals);
         while let Some(fact) = self.agenda.pop() {
             let node = self.labels[fact.index()].supporter;
             if !self.marked_facts.mark(fact.index()) || node == NO_NODE {

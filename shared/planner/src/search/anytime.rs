@@ -4,10 +4,10 @@
 use std::rc::Rc;
 use std::sync::atomic::AtomicBool;
 
-use super::improve::{Improvement, Step, cost, eliminate};
+use super::improve::{Effort, Improvement, Improver, Step, cost, eliminate};
 use super::limits::{Limits, Meter, Outcome, Unsolvable};
 use super::{Prepared, Statistics, portfolio, prepare};
-use crate::heuristic::{Costs, Relaxation};
+use crate::heuristic::{Costs, LandmarkGraph, Relaxation};
 use crate::plan::Plan;
 use crate::task::{OperatorId, Task};
 
@@ -37,7 +37,15 @@ pub fn solve_anytime(
     };
     let mut meter = Meter::new(limits, cancel);
     let Prepared { graph, successors } = &prepared;
-    let first = portfolio::first_plan(task, graph, successors, &mut meter, &mut Statistics::default());
+    let mut statistics = Statistics::default();
+    let first = portfolio::first_plan(
+        task,
+        graph,
+        successors,
+        &LandmarkGraph::new(task, graph),
+        &mut meter,
+        &mut statistics,
+    );
     let mut best: Vec<OperatorId> = match first {
         Ok(Some(path)) => eliminate(task, path),
         Ok(None) => {
@@ -47,6 +55,13 @@ pub fn solve_anytime(
     };
     let mut plan = task.plan(&best);
     better(&plan);
+    let effort = Effort::Share(statistics.work);
+    best = Improver { task, graph, successors }.improve(best, effort, &mut meter);
+    let improved = task.plan(&best);
+    if improved.cost < plan.cost {
+        plan = improved;
+        better(&plan);
+    }
     let mut relaxation = Relaxation::on(task, Rc::clone(graph), Costs::PlusOne);
     let mut weights = WEIGHTS.into_iter();
     let mut weight = weights.next().unwrap_or(1);

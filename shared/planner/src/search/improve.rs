@@ -1,36 +1,91 @@
 //! Making a plan better within a bounded effort.
 
+use std::rc::Rc;
+
 use super::limits::Meter;
 use super::open_list::OpenList;
 use super::registry::{Registry, StateId};
-use crate::heuristic::{Costs, Relaxation};
+use super::windows::Windows;
+use crate::heuristic::{Costs, Graph, Relaxation};
 use crate::successor::Successors;
 use crate::task::{OperatorId, Task};
 
-/// Drops useless operators, then looks for cheaper plans with weighted A* of falling weight.
-pub(super) fn improve(
-    task: &Task,
-    successors: &Successors,
-    relaxation: &mut Relaxation<'_>,
-    plan: Vec<OperatorId>,
-    effort: u64,
-    meter: &mut Meter<'_>,
-) -> Vec<OperatorId> {
-    let mut best = eliminate(task, plan);
-    let mut left = effort;
-    // A larger weight only repeats what the greedy search has found.
-    for weight in [2, 1] {
-        // Ties are broken by length.
-        let costs = Costs::PlusOne;
-        let bound = cost(task, costs, &best);
-        let search = Improvement { task, successors, relaxation, weight, costs, bound, left: &mut left };
-        match search.run(meter) {
-            Step::Better(path) => best = eliminate(task, path),
-            Step::Nothing => {}
-            Step::Stopped => break,
+/// What grounding and preparing take for each part of the relaxed task, and what a unit of the search's work takes,
+/// in nanoseconds.
+const PREPARATION: u64 = 250;
+const WORK: u64 = 2;
+
+/// What searching again for the whole plan may take, in parts of the relaxed task looked at, and what is counted for each
+/// state besides. It finds the best plan of a small task and is next to nothing for a large one.
+const AGAIN: u64 = 200_000;
+const STATE: u64 = 1_000;
+
+/// One part in so many of what everything took may be spent on top.
+const SHARE: u64 = 2;
+
+/// How much may be done to make a plan better.
+pub(super) enum Effort {
+    /// So many states are estimated.
+    States(u64),
+    /// A share of what everything took so far, where the search took so much work.
+    Share(u64),
+}
+
+/// Makes plans better.
+pub(super) struct Improver<'a, 't> {
+    pub task: &'t Task,
+    pub graph: &'a Rc<Graph>,
+    pub successors: &'a Successors,
+}
+
+impl<'t> Improver<'_, 't> {
+    /// The plan, or a better one.
+    pub fn improve(&self, plan: Vec<OperatorId>, effort: Effort, meter: &mut Meter<'_>) -> Vec<OperatorId> {
+        let best = eliminate(self.task, plan);
+        match effort {
+            Effort::States(states) => self.search_again(best, states, meter),
+            Effort::Share(work) => {
+                let states = AGAIN / (self.graph.size() as u64 + STATE);
+                let best = self.search_again(best, states, meter);
+                let preparation = PREPARATION * self.graph.size() as u64;
+                let work = work.saturating_mul(WORK).saturating_add(preparation) / SHARE;
+                let mut relaxation = self.relaxation();
+                let mut windows = Windows::new(self.task, &mut relaxation, work);
+                eliminate(self.task, windows.improve(best, meter))
+            }
         }
     }
-    best
+
+    fn relaxation(&self) -> Relaxation<'t> {
+        Relaxation::on(self.task, Rc::clone(self.graph), Costs::PlusOne)
+    }
+
+    /// Looks for cheaper plans with weighted A* of falling weight.
+    fn search_again(&self, plan: Vec<OperatorId>, states: u64, meter: &mut Meter<'_>) -> Vec<OperatorId> {
+        let (mut best, mut left) = (plan, states);
+        let mut relaxation = self.relaxation();
+        // A larger weight only repeats what the greedy search has found.
+        for weight in [2, 1] {
+            // Ties are broken by length.
+            let costs = Costs::PlusOne;
+            let bound = cost(self.task, costs, &best);
+            let search = Improvement {
+                task: self.task,
+                successors: self.successors,
+                relaxation: &mut relaxation,
+                weight,
+                costs,
+                bound,
+                left: &mut left,
+            };
+            match search.run(meter) {
+                Step::Better(path) => best = eliminate(self.task, path),
+                Step::Nothing => {}
+                Step::Stopped => break,
+            }
+        }
+        best
+    }
 }
 
 /// The cost of a plan.

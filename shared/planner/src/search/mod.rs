@@ -11,8 +11,10 @@ mod open_list;
 mod portfolio;
 mod projection;
 mod registry;
+mod regression;
 mod spread;
 mod type_buckets;
+mod windows;
 
 use std::rc::Rc;
 use std::sync::atomic::AtomicBool;
@@ -28,9 +30,10 @@ pub use spread::spread;
 pub(crate) use spread::{Errand, Spreader};
 
 use crate::ground::{GroundError, ground};
-use crate::heuristic::{Blind, Costs, Graph, Heuristic, LandmarkCut, Relaxation};
+use crate::heuristic::{Blind, Costs, Graph, Heuristic, LandmarkCut, LandmarkGraph, Relaxation};
 use crate::successor::Successors;
 use crate::task::{OperatorId, Task};
+use improve::{Effort, Improver};
 
 /// How far a search came in its slice.
 enum Progress {
@@ -44,20 +47,13 @@ enum Progress {
 
 type Slice = Result<Progress, GaveUp>;
 
-/// The work, in parts of the relaxed task looked at, that improving a plan may take by default.
-const IMPROVEMENT_WORK: u64 = 200_000;
-
-/// Counted for each state besides the parts of its relaxed task, so that small tasks, whose states cost little to
-/// estimate, do not get thousands of them: their plans are short, and soon as good as they get.
-const STATE_WORK: u64 = 1_000;
-
 /// How to search.
 #[derive(Clone, Debug, Default)]
 pub struct SearchOptions {
     /// Which search.
     pub engine: Engine,
-    /// States estimated to make the first plan better; zero: only useless actions are dropped. `None`: what
-    /// takes about half a millisecond, which is much for household tasks and next to nothing for large ones.
+    /// States estimated to make the first plan better; zero: only useless actions are dropped. `None`: about half
+    /// as much again as finding it took.
     pub improvement: Option<u64>,
 }
 
@@ -92,10 +88,14 @@ impl Engine {
 pub struct Statistics {
     /// Expanded states until the first plan.
     pub expanded: u64,
+    /// The same in work, roughly nanoseconds.
+    pub work: u64,
     /// Landmarks found.
     pub landmarks: usize,
     /// Which search found it: the number of the slice.
     pub slice: u32,
+    /// The parts of the relaxed task.
+    pub parts: usize,
     /// The cost of the first plan.
     pub first_cost: f64,
 }
@@ -117,7 +117,12 @@ pub fn solve_with_statistics(
         Ok(prepared) => prepared,
         Err(reason) => return Outcome::Unsolvable(reason),
     };
+    statistics.parts = graph.size();
     let mut meter = Meter::new(limits, cancel);
+    let landmarks = match options.engine {
+        Engine::Portfolio => LandmarkGraph::new(task, &graph),
+        Engine::AstarLmcut | Engine::AstarBlind => LandmarkGraph::default(),
+    };
     let optimal = |heuristic: &mut dyn Heuristic, meter: &mut Meter<'_>| {
         astar::astar(task, &successors, heuristic, meter).map(|progress| match progress {
             Progress::Solved(path) => Some(path),
@@ -125,7 +130,9 @@ pub fn solve_with_statistics(
         })
     };
     let found = match options.engine {
-        Engine::Portfolio => portfolio::first_plan(task, &graph, &successors, &mut meter, statistics),
+        Engine::Portfolio => {
+            portfolio::first_plan(task, &graph, &successors, &landmarks, &mut meter, statistics)
+        }
         Engine::AstarLmcut => optimal(&mut LandmarkCut::new(task, Costs::Real), &mut meter),
         Engine::AstarBlind => optimal(&mut Blind, &mut meter),
     };
@@ -139,10 +146,9 @@ pub fn solve_with_statistics(
         Ok(None) => Outcome::Unsolvable(Unsolvable::Exhausted),
         Ok(Some(path)) => {
             statistics.first_cost = path.iter().map(|&o| task.operators[o.index()].cost).sum();
-            let affordable = IMPROVEMENT_WORK / (graph.size() as u64 + STATE_WORK);
-            let effort = options.improvement.unwrap_or(affordable);
-            let mut relaxation = Relaxation::on(task, graph, Costs::PlusOne);
-            let path = improve::improve(task, &successors, &mut relaxation, path, effort, &mut meter);
+            let improver = Improver { task, graph: &graph, successors: &successors };
+            let effort = options.improvement.map_or(Effort::Share(statistics.work), Effort::States);
+            let path = improver.improve(path, effort, &mut meter);
             Outcome::Found(task.plan(&path))
         }
     }

@@ -112,6 +112,11 @@ impl<'a, 't> WidthSearch<'a, 't> {
         self.registry.bytes() + self.status.bytes() + self.open.bytes() + tables + self.nodes.capacity() * 16
     }
 
+    /// The states seen so far.
+    pub fn seen(&self) -> u64 {
+        self.nodes.len() as u64
+    }
+
     /// Goes on for about `slice` states.
     pub fn run(&mut self, mut slice: u64, meter: &mut Meter<'_>) -> Slice {
         let mut state = self.task.init.clone();

@@ -18,31 +18,36 @@ pub(super) fn first_plan(
     task: &Task,
     graph: &Rc<Graph>,
     successors: &Successors,
+    landmarks: &LandmarkGraph,
     meter: &mut Meter<'_>,
     statistics: &mut Statistics,
 ) -> Result<Option<Vec<OperatorId>>, GaveUp> {
-    let landmarks = LandmarkGraph::new(task, graph);
     statistics.landmarks = landmarks.len();
     let relaxation = || Relaxation::on(task, Rc::clone(graph), Costs::Unit);
     // What a state costs, measured in the same unit (about a nanosecond): h_FF looks at the whole graph,
     // novelty at the variables and the landmarks.
     let greedy_cost = graph.size() as u64 + 500;
     let width_cost = 15 * (task.variables.len() + landmarks.len()) as u64 + 500;
-    let mut greedy = LazyGreedy::new(task, successors, &landmarks, relaxation());
+    let mut greedy = LazyGreedy::new(task, successors, landmarks, relaxation());
     let mut slice = FIRST_SLICE;
-    if let Some(result) = finished(greedy.run(slice / greedy_cost + 20, meter)?) {
+    let first = greedy.run(slice / greedy_cost + 20, meter)?;
+    statistics.work = meter.expanded * greedy_cost;
+    if let Some(result) = finished(first) {
         return Ok(result);
     }
     statistics.slice = 1;
-    let mut width = WidthSearch::new(task, successors, &landmarks, relaxation(), 1, true);
-    if let Some(result) = finished(width.run(10 * slice / width_cost, meter)?) {
+    let mut width = WidthSearch::new(task, successors, landmarks, relaxation(), 1, true);
+    let quick = width.run(10 * slice / width_cost, meter)?;
+    statistics.work += width.seen() * width_cost;
+    if let Some(result) = finished(quick) {
         return Ok(result);
     }
     drop(width);
-    let mut width = Some(WidthSearch::new(task, successors, &landmarks, relaxation(), 2, false));
+    let mut width = Some(WidthSearch::new(task, successors, landmarks, relaxation(), 2, false));
     loop {
         slice = slice.saturating_mul(4);
         statistics.slice += 1;
+        statistics.work = statistics.work.saturating_add(slice);
         meter.reserve(width.as_ref().map_or(0, WidthSearch::bytes));
         match greedy.run(slice / greedy_cost + 20, meter) {
             // Greedy search goes on with all of the memory.

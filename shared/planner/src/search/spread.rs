@@ -70,7 +70,7 @@ impl<'a> Spreader<'a> {
 
     /// A plan for an errand.
     pub fn run(&mut self, errand: &Errand<'_>, meter: &mut Meter<'_>) -> Option<Vec<OperatorId>> {
-        self.relaxation.set_goal(errand.goal);
+        self.relaxation.set_goals(errand.goal.iter().copied());
         if let Some(only) = errand.only {
             let agent_of = self.agent_of;
             let cost = |o: OperatorId| if agent_of[o.index()] == only { BASE } else { FORBIDDEN };
