@@ -12,6 +12,8 @@ use serde::Deserialize;
 
 use super::inflect::{self, VerbForm};
 use super::situation::{self, Situation};
+use super::spelling::Spelling;
+use super::trigger::{Said, Trigger, TriggerWords};
 use crate::LmError;
 
 /// The files of a lexicon and those that are built in.
@@ -125,6 +127,9 @@ pub struct Use {
     /// It is said of a place.
     #[serde(default)]
     pub place: bool,
+    /// `when`, as it is tried.
+    #[serde(skip)]
+    pub triggers: Vec<Trigger>,
 }
 
 #[derive(Deserialize, Default)]
@@ -175,6 +180,11 @@ pub struct Lexicon {
     inside: BTreeMap<String, BTreeMap<String, Vec<String>>>,
     likes: BTreeMap<String, Vec<String>>,
     vocabulary: BTreeSet<String>,
+    trigger_words: TriggerWords,
+    /// The vocabulary that a strange word may be a slip for.
+    spelling: Spelling,
+    /// The verbs of one word.
+    bare_verbs: Spelling,
 }
 
 impl Lexicon {
@@ -237,15 +247,27 @@ impl Lexicon {
         self.under.extend(file.under);
         self.inside.extend(file.inside);
         self.likes.extend(file.likes);
-        for situation in file.situation {
+        for mut situation in file.situation {
             self.vocabulary.extend(situation::vocabulary(&situation.when));
+            situation.triggers = situation.when.iter().map(|when| self.trigger_words.trigger(when)).collect();
             self.situations.push(situation);
         }
-        for usage in file.uses {
+        for mut usage in file.uses {
             self.vocabulary.extend(situation::vocabulary(&usage.when));
+            usage.triggers = usage.when.iter().map(|when| self.trigger_words.trigger(when)).collect();
             self.uses.push(usage);
         }
+        self.index_spelling();
         Ok(())
+    }
+
+    /// What spelling is repaired with, after the words have changed.
+    fn index_spelling(&mut self) {
+        let misspellable = |known: &&str| !self.is_small("real", &[known]);
+        self.spelling = Spelling::of(self.vocabulary.iter().map(String::as_str).filter(misspellable));
+        let bare =
+            |(_, verbs): &(&String, &Vec<(Vec<String>, usize)>)| verbs.iter().any(|(p, _)| p.is_empty());
+        self.bare_verbs = Spelling::of(self.verb_index.iter().filter(bare).map(|(base, _)| base.as_str()));
     }
 
     /// Whether a type is known by its own name.
@@ -327,18 +349,12 @@ impl Lexicon {
 
     /// The verb of one word that is one letter away from a word: the one of the same first letter before others.
     pub fn near_verb(&self, word: &str) -> Option<(&str, Vec<&Verb>)> {
-        let letters: Vec<char> = word.chars().collect();
-        let near = |base: &&String| {
-            let other: Vec<char> = base.chars().collect();
-            other.len() >= 3 && super::text::damerau_levenshtein(&letters, &other) == 1
-        };
-        let bare = |base: &str| -> Vec<&Verb> {
-            let known = self.verb_index.get(base).map(Vec::as_slice).unwrap_or_default();
-            known.iter().filter(|(p, _)| p.is_empty()).map(|(_, index)| &self.verbs[*index]).collect()
-        };
-        let found = self.verb_index.keys().filter(near).filter(|base| !bare(base).is_empty());
-        let best = found.min_by_key(|base| (base.chars().next() != letters.first().copied(), base.len()))?;
-        Some((best, bare(best)))
+        let first = word.chars().next();
+        let found = self.bare_verbs.one_edit_away(word);
+        let best = found.min_by_key(|base| (base.chars().next() != first, base.len()))?;
+        let known = self.verb_index.get(best).map(Vec::as_slice).unwrap_or_default();
+        let bare = known.iter().filter(|(particles, _)| particles.is_empty());
+        Some((best, bare.map(|(_, index)| &self.verbs[*index]).collect()))
     }
 
     /// The state an adjective names.
@@ -397,7 +413,17 @@ impl Lexicon {
         &self.uses
     }
 
-    /// The words it knows, for spelling.
+    /// Which words of triggers some words say.
+    pub fn said(&self, words: &[String]) -> Said {
+        self.trigger_words.said(words)
+    }
+
+    /// The words that a strange one may be a slip for.
+    pub fn spelling(&self) -> &Spelling {
+        &self.spelling
+    }
+
+    /// The words it knows.
     pub fn vocabulary(&self) -> &BTreeSet<String> {
         &self.vocabulary
     }

@@ -16,8 +16,10 @@ mod mention;
 mod phrase;
 mod scene;
 mod situation;
+mod spelling;
 mod syntax;
 mod text;
+mod trigger;
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -193,7 +195,7 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
     let words = text::without_asides(words, lexicon);
     let mut reading = word_by_word(&words, lexicon, scene);
-    let strong = situation::ranked(lexicon.situations(), &situation::words_of(&words), true);
+    let strong = situation::ranked(lexicon, &situation::words_of(&words), true);
     let explained = strong.first().map_or(0, |(_, explained)| *explained);
     let absent = reading.problems.iter().any(|problem| problem.starts_with("there is no "));
     let one_sentence = !words[..words.len().saturating_sub(1)].contains(&".".to_owned());
@@ -274,13 +276,12 @@ fn one_clause<'a>(
     lexicon: &Lexicon,
 ) {
     let clause = &clauses[index];
-    let situations = lexicon.situations();
     let words = situation::words_of(&clause.words);
     if !clause.negated
         && is_weak(clause, lexicon)
         && !says_where(clause, interpreter.discourse.scene)
         && !says_state(clause, interpreter.discourse.scene)
-        && interpreter.first_situation(index, &situation::ranked(situations, &words, true), &words)
+        && interpreter.first_situation(index, &situation::ranked(lexicon, &words, true), &words)
     {
         interpreter.speak_of_what_came_about(index, clauses);
         return;
@@ -295,7 +296,7 @@ fn one_clause<'a>(
     let says_little = is_weak(clause, lexicon)
         || !clause.objects.iter().any(|p| matches!(p.head, syntax::Head::Noun(_) | syntax::Head::Named(_)));
     if failed && says_little && (!absent || is_weak(clause, lexicon)) {
-        let ranked = situation::ranked(situations, &words, false);
+        let ranked = situation::ranked(lexicon, &words, false);
         let literal = Snapshot::take(interpreter);
         before.restore(interpreter);
         if interpreter.first_situation(index, &ranked, &words) {
@@ -311,7 +312,7 @@ fn one_clause<'a>(
 }
 
 /// Whether a clause says too little by itself to stand against a situation: no verb, a weak one with nothing
-/// it can be done to, or "everything".
+/// it can be done to, "everything", or a turn of phrase.
 fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
     let first = clause.verb_text.split(' ').next().unwrap_or_default();
     let weak = inflect::bases(first).iter().any(|(base, _)| lexicon.is_small("weak", &[base]));
@@ -320,7 +321,9 @@ fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
     let places = clause.verbs.iter().any(|verb| verb.act == Act::Place)
         && clause.objects.iter().any(plain)
         && clause.places.iter().any(|place| matches!(place.phrase.head, syntax::Head::Noun(_)));
-    clause.verbs.is_empty() || weak && !clause.verb_text.contains(' ') && !places
+    let said: Vec<&str> = clause.words.iter().map(String::as_str).collect();
+    let idiom = (0..said.len()).any(|at| lexicon.longest_small("idioms", &said[at..]).is_some());
+    clause.verbs.is_empty() || idiom || weak && !clause.verb_text.contains(' ') && !places
 }
 
 /// Whether a clause says what a thing of the scene shall be like: "have the potato chopped" is no recipe.
@@ -433,7 +436,7 @@ fn as_situation(
     scene: &Scene<'_>,
 ) -> Option<Reading> {
     let words = situation::words_of(words);
-    let ranked = situation::ranked(lexicon.situations(), &words, false);
+    let ranked = situation::ranked(lexicon, &words, false);
     let mut discourse = Discourse::new(lexicon, scene);
     let clauses = [Clause {
         text: instruction.trim().to_owned(),
