@@ -220,7 +220,11 @@ fn vague_commands_are_read_as_situations_of_this_room() {
     check(
         "I would love a coffee",
         kitchen(),
-        json!([{"object": "CoffeeMachine", "contains": ["Mug"], "is": {"isToggled": true}}]),
+        json!([{
+            "object": "CoffeeMachine",
+            "contains": [{"object": "Mug", "is": {"isFilledWithLiquid": true, "fillLiquid": "coffee"}}],
+            "is": {"isToggled": true}
+        }]),
     );
     let assumptions = understood("I would love a coffee", kitchen()).assumptions;
     assert!(

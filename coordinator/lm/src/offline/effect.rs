@@ -102,7 +102,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             };
         } else if let Some(elsewhere) = self.not_there(clause) {
             spoken = self.put_elsewhere(&elsewhere, next);
-        } else if clause.says_any(&["same", "likewise"]) && self.same_again(clause, &mut spoken) {
+        } else if says_the_same(clause) && self.same_again(clause, &mut spoken) {
         } else if let Some(mended) = left_so(clause).and_then(mended) {
             spoken = self.complaint(clause, &mended);
         } else if let Some(verb) = self.choose(clause) {
@@ -389,6 +389,16 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         }
         Spoken { places: lamps, ..Spoken::default() }
     }
+}
+
+/// "likewise", "do the same", "the same with the spoon", but not "in the same drawer".
+fn says_the_same(clause: &Clause<'_>) -> bool {
+    let alike = |two: &[String]| {
+        two[0] == "same" && ["with", "for", "to", "goes", "applies", "thing"].contains(&two[1].as_str())
+    };
+    clause.says_any(&["likewise"])
+        || clause.says_any(&["same"]) && clause.says_any(&["do", "doing"])
+        || clause.words.windows(2).any(alike)
 }
 
 /// Whether a clause is about what was just spoken of.

@@ -5,6 +5,7 @@
 //! which is how compounds are joined and split.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Bound;
 use std::path::Path;
 
 use lamma_domains::goal::PropertyValue;
@@ -369,7 +370,21 @@ impl Lexicon {
 
     /// The longest entry of a list of small words at the start of `words`, in words.
     pub fn longest_small(&self, list: &str, words: &[&str]) -> Option<usize> {
-        (1..=LONGEST.min(words.len())).rev().find(|&n| self.is_small(list, &words[..n]))
+        let known = self.small.get(list)?;
+        let joined = words[..LONGEST.min(words.len())].concat();
+        // No entry starts like it: most words are in none of the lists.
+        let start = joined.chars().next()?;
+        let near =
+            known.range::<str, _>((Bound::Included(&joined[..start.len_utf8()]), Bound::Unbounded)).next();
+        near.filter(|entry| entry.starts_with(start))?;
+        let mut end = joined.len();
+        for length in (1..=LONGEST.min(words.len())).rev() {
+            if known.contains(&joined[..end]) {
+                return Some(length);
+            }
+            end -= words[length - 1].len();
+        }
+        None
     }
 
     /// What switches a thing that has no switch of its own.

@@ -14,8 +14,10 @@ mod inflect;
 mod lexicon;
 mod mention;
 mod phrase;
+mod rewrite;
 mod scene;
 mod situation;
+mod snapshot;
 mod spelling;
 mod syntax;
 mod text;
@@ -34,6 +36,7 @@ pub use gloss::Gloss;
 use lexicon::{Act, Lexicon};
 use mention::{Discourse, Spoken};
 use scene::Scene;
+use snapshot::Snapshot;
 use syntax::Clause;
 pub(crate) use text::damerau_levenshtein;
 
@@ -147,6 +150,17 @@ struct Reading {
 }
 
 impl Reading {
+    /// Of what has no word in it that is known.
+    fn nothing(instruction: &str) -> Self {
+        Self {
+            decomposition: Decomposition::default(),
+            problems: vec![format!("I do not know what to do for \"{}\"", text::shortened(instruction))],
+            others: Vec::new(),
+            only_goes: false,
+            concrete: false,
+        }
+    }
+
     /// The answer to what was `said`.
     fn answer(self, said: &str, assume: bool) -> Answer {
         let Self { decomposition, problems, others, only_goes, .. } = self;
@@ -192,8 +206,12 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         .filter(|token| repairs.contains(&text::repair_note(token)))
         .map(|token| (token.typed.clone(), token.text.clone()))
         .collect();
+    let tokens = rewrite::rewritten(tokens, lexicon);
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
     let words = text::without_asides(words, lexicon);
+    if text::says_nothing(&words, lexicon, scene) {
+        return Reading::nothing(instruction);
+    }
     let mut reading = word_by_word(&words, lexicon, scene);
     let strong = situation::ranked(lexicon, &situation::words_of(&words), true);
     let explained = strong.first().map_or(0, |(_, explained)| *explained);
@@ -276,7 +294,15 @@ fn one_clause<'a>(
     lexicon: &Lexicon,
 ) {
     let clause = &clauses[index];
+    // "empty the sink by moving the pan to the stove": what comes next says how.
+    let by = clauses.get(index + 1).is_some_and(|next| next.words.first().is_some_and(|word| word == "by"));
     let words = situation::words_of(&clause.words);
+    let names =
+        clause.objects.iter().any(|p| matches!(p.head, syntax::Head::Noun(_) | syntax::Head::Named(_)));
+    if by && !names && is_weak(clause, lexicon) {
+        done_by_what_follows(interpreter, clause);
+        return;
+    }
     if !clause.negated
         && is_weak(clause, lexicon)
         && !says_where(clause, interpreter.discourse.scene)
@@ -293,8 +319,7 @@ fn one_clause<'a>(
     let absent =
         interpreter.discourse.problems[before.problems..].iter().any(|p| p.starts_with("there is no "));
     // What was named and is not here is not to be replaced by what a situation would do.
-    let says_little = is_weak(clause, lexicon)
-        || !clause.objects.iter().any(|p| matches!(p.head, syntax::Head::Noun(_) | syntax::Head::Named(_)));
+    let says_little = is_weak(clause, lexicon) || !names;
     if failed && says_little && (!absent || is_weak(clause, lexicon)) {
         let ranked = situation::ranked(lexicon, &words, false);
         let literal = Snapshot::take(interpreter);
@@ -305,10 +330,20 @@ fn one_clause<'a>(
         }
         literal.restore(interpreter);
     }
+    if failed && by && !interpreter.spoke {
+        before.restore(interpreter);
+        done_by_what_follows(interpreter, clause);
+        return;
+    }
     let remark = clause.is_remark() && clauses.len() > 1;
     if failed && !interpreter.spoke && !clause.negated && !is_mere_step(clause) && !remark {
         interpreter.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.4);
     }
+}
+
+fn done_by_what_follows(interpreter: &mut Interpreter<'_, '_>, clause: &Clause<'_>) {
+    interpreter.discourse.spoken.push(Spoken::default());
+    interpreter.discourse.assume(format!("\"{}\" is done by what follows", clause.text), 0.95);
 }
 
 /// Whether a clause says too little by itself to stand against a situation: no verb, a weak one with nothing
@@ -392,41 +427,6 @@ fn is_mere_step(clause: &Clause<'_>) -> bool {
         || clause.verbs.iter().any(|verb| {
             matches!(verb.act, Act::Use | Act::Hold) || verb.act == Act::Place && clause.places.is_empty()
         })
-}
-
-/// What an attempt at a clause may change.
-struct Snapshot {
-    facts: Vec<Fact>,
-    entities: Vec<mention::Entity>,
-    spoken: Vec<Spoken>,
-    assumptions: Vec<String>,
-    problem_list: Vec<String>,
-    problems: usize,
-    confidence: mention::Confidence,
-}
-
-impl Snapshot {
-    fn take(interpreter: &Interpreter<'_, '_>) -> Self {
-        let discourse = &interpreter.discourse;
-        Self {
-            facts: interpreter.facts.clone(),
-            entities: discourse.entities.clone(),
-            spoken: discourse.spoken.clone(),
-            assumptions: discourse.assumptions.clone(),
-            problem_list: discourse.problems.clone(),
-            problems: discourse.problems.len(),
-            confidence: discourse.confidence,
-        }
-    }
-
-    fn restore(&self, interpreter: &mut Interpreter<'_, '_>) {
-        interpreter.facts.clone_from(&self.facts);
-        interpreter.discourse.entities.clone_from(&self.entities);
-        interpreter.discourse.spoken.clone_from(&self.spoken);
-        interpreter.discourse.assumptions.clone_from(&self.assumptions);
-        interpreter.discourse.problems.clone_from(&self.problem_list);
-        interpreter.discourse.confidence = self.confidence;
-    }
 }
 
 fn as_situation(

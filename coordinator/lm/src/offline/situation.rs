@@ -110,7 +110,7 @@ impl Interpreter<'_, '_> {
 
     /// What a situation spoke of, where the next clause carries it on: "make a coffee and bring it to the table".
     pub fn speak_of_what_came_about(&mut self, index: usize, clauses: &[Clause<'_>]) {
-        let carried = clauses.get(index + 1).is_some_and(Clause::carries_it);
+        let carried = clauses.get(index + 1).is_some_and(|next| next.carries_it() || next.discards_it());
         let spoken = if carried { self.brought_about(index) } else { Spoken::default() };
         self.discourse.spoken.push(spoken);
     }

@@ -243,6 +243,16 @@ pub fn without_asides(words: Vec<String>, lexicon: &Lexicon) -> Vec<String> {
     kept
 }
 
+/// Whether no word is known to mean a thing, a doing or a state.
+pub fn says_nothing(words: &[String], lexicon: &Lexicon, scene: &Scene) -> bool {
+    let means = |word: &String| {
+        scene.named(word).is_some()
+            || !super::syntax::is_function_word(word) && is_known(word, lexicon, scene)
+            || super::syntax::preposition(&[word]).is_some()
+    };
+    !words.iter().any(means)
+}
+
 /// Whether a word needs no repair.
 pub fn is_known(word: &str, lexicon: &Lexicon, scene: &Scene) -> bool {
     super::syntax::is_function_word(word)

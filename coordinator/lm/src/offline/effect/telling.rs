@@ -1,5 +1,6 @@
 //! Clauses without a verb: what is told, wished for or complained of.
 
+use super::super::clause::is_denied;
 use super::super::clause::is_going;
 use super::super::lexicon::Act;
 use super::super::mention::Spoken;
@@ -84,7 +85,7 @@ impl<'a> Interpreter<'_, 'a> {
         ];
         let stays = clause.verbs.iter().all(|verb| matches!(verb.act, Act::Keep | Act::Place | Act::Go));
         let denied = clause.negated && clause.verb_text.starts_with("leav")
-            || !clause.negated && clause.says_any(&["not", "doesnt", "shouldnt", "mustnt", "dont", "no"]);
+            || !clause.negated && (is_denied(&clause.words) || clause.says_any(&["no"]));
         let place = clause.places.iter().position(|place| place.relation == Relation::In)?;
         let fits = denied
             && stays
@@ -182,6 +183,10 @@ pub(in crate::offline) fn untrue_place<'c>(clause: &'c Clause<'_>, scene: &Scene
     let told = clause.says_any(&["is", "are"]) && clause.verbs.is_empty() && clause.unknown.is_empty();
     let place = clause.places.iter().find(|place| place.relation == Relation::In).filter(|_| told)?;
     let Head::Noun(home) = &place.phrase.head else { return None };
+    // "the towels are on the floor" is a complaint.
+    if home.kinds.iter().any(|kind| kind == "Floor") {
+        return None;
+    }
     let elsewhere = |phrase: &Phrase| match &phrase.head {
         Head::Noun(noun) => {
             let mut here = noun.kinds.iter().filter(|kind| scene.affords(kind, "pickupable")).peekable();
