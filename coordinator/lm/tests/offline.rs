@@ -398,6 +398,14 @@ proptest! {
     }
 }
 
+/// An attempt at a clause that is given up takes its prohibitions with it.
+#[test]
+fn what_was_given_up_forbids_nothing() {
+    for text in ["left the things the fridge open", "fork left fork anything the fridge on put open"] {
+        holds_its_promises(text);
+    }
+}
+
 /// `LAMMA_FUZZ=1000000 cargo test -p lamma-lm --release -- --ignored a_million`; without the variable a
 /// thousand.
 #[test]

@@ -435,6 +435,11 @@ impl<'a> Parser<'a> {
         if wished && (ahead.state_told() || ahead.complements_follow()) {
             return true;
         }
+        // "the card with the keys in the box"
+        if let Some((Relation::With, length)) = preposition(&ahead.rest()) {
+            ahead.position += length;
+            ahead.phrases(0);
+        }
         preposition(&ahead.rest())
             .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To | Relation::Near))
             || ahead.peek().is_some_and(|word| ["should", "must", "needs", "need"].contains(&word))

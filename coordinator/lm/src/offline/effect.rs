@@ -40,7 +40,7 @@ pub struct Interpreter<'d, 'a> {
     switches_on: bool,
     clause: usize,
     /// What must not become so.
-    prohibitions: Vec<forbid::Prohibition>,
+    pub(super) prohibitions: Vec<forbid::Prohibition>,
     /// Whether the clause at hand said anything, new or not.
     pub spoke: bool,
 }
@@ -103,7 +103,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         } else if let Some(elsewhere) = self.not_there(clause) {
             spoken = self.put_elsewhere(&elsewhere, next);
         } else if says_the_same(clause) && self.same_again(clause, &mut spoken) {
-        } else if let Some(mended) = left_so(clause).and_then(mended) {
+        } else if let Some(mended) = left_so(clause).and_then(mended).or_else(|| left_running(clause)) {
             spoken = self.complaint(clause, &mended);
         } else if let Some(verb) = self.choose(clause) {
             let liquid = !clause.objects.is_empty() && clause.objects.iter().all(|o| o.liquid().is_some());
@@ -441,10 +441,10 @@ fn about_the_same(a: &Change, b: &Change) -> bool {
 }
 
 mod changing;
-mod forbid;
+pub(super) mod forbid;
 mod holding;
 mod placing;
 mod telling;
 
 pub(in crate::offline) use telling::untrue_place;
-use telling::{left_so, mended};
+use telling::{left_running, left_so, mended};

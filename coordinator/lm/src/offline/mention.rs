@@ -74,7 +74,7 @@ pub struct Discourse<'a> {
     /// What must not be done on the way.
     pub bans: Vec<Ban>,
     /// What is switched, and by what.
-    controls: Vec<(usize, usize)>,
+    pub(super) controls: Vec<(usize, usize)>,
 }
 
 impl<'a> Discourse<'a> {

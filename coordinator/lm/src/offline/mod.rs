@@ -154,7 +154,10 @@ impl Reading {
     fn nothing(instruction: &str) -> Self {
         Self {
             decomposition: Decomposition::default(),
-            problems: vec![format!("I do not know what to do for \"{}\"", text::shortened(instruction))],
+            problems: vec![format!(
+                "I do not know what to do for \"{}\"",
+                text::shortened(&instruction.to_lowercase())
+            )],
             others: Vec::new(),
             only_goes: false,
             concrete: false,

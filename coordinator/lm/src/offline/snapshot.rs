@@ -1,5 +1,6 @@
 //! What an attempt at a clause may change, so that another may be made.
 
+use super::effect::forbid::Prohibition;
 use super::effect::{Fact, Interpreter};
 use super::mention::{Confidence, Entity, Spoken};
 
@@ -8,6 +9,9 @@ pub struct Snapshot {
     facts: Vec<Fact>,
     entities: Vec<Entity>,
     spoken: Vec<Spoken>,
+    /// What is switched by what and what is forbidden name entities by number, so they go with those.
+    controls: Vec<(usize, usize)>,
+    prohibitions: Vec<Prohibition>,
     assumptions: Vec<String>,
     problem_list: Vec<String>,
     /// How many problems there were.
@@ -23,6 +27,8 @@ impl Snapshot {
             facts: interpreter.facts.clone(),
             entities: discourse.entities.clone(),
             spoken: discourse.spoken.clone(),
+            controls: discourse.controls.clone(),
+            prohibitions: interpreter.prohibitions.clone(),
             assumptions: discourse.assumptions.clone(),
             problem_list: discourse.problems.clone(),
             problems: discourse.problems.len(),
@@ -35,6 +41,8 @@ impl Snapshot {
         interpreter.facts.clone_from(&self.facts);
         interpreter.discourse.entities.clone_from(&self.entities);
         interpreter.discourse.spoken.clone_from(&self.spoken);
+        interpreter.discourse.controls.clone_from(&self.controls);
+        interpreter.prohibitions.clone_from(&self.prohibitions);
         interpreter.discourse.assumptions.clone_from(&self.assumptions);
         interpreter.discourse.problems.clone_from(&self.problem_list);
         interpreter.discourse.confidence = self.confidence;

@@ -214,6 +214,17 @@ pub(super) fn left_so<'c, 'a>(clause: &'c Clause<'a>) -> Option<&'c Clause<'a>> 
     (clause.verb_text == "left" && !clause.complement.is_empty() && !clause.wants()).then_some(clause)
 }
 
+/// "someone left the tap running": it is to be switched off.
+pub(super) fn left_running<'a>(clause: &Clause<'a>) -> Option<Clause<'a>> {
+    let left = clause.verb_text.split(' ').next() == Some("left");
+    let on = clause.verbs.iter().any(|verb| verb.set.get("isToggled") == Some(&crate::offline::yes()));
+    (left && on && clause.complement.is_empty() && !clause.wants()).then(|| {
+        let mut mended = clause.clone();
+        mended.complement.insert("isToggled".to_owned(), crate::offline::no());
+        mended
+    })
+}
+
 /// What a complaint asks for: what is dirty is to be clean, what was left open is to be closed.
 pub(super) fn mended<'a>(clause: &Clause<'a>) -> Option<Clause<'a>> {
     let complaint = clause.says_any(&["left", "still"]) || clause.complement.contains_key("isDirty");
