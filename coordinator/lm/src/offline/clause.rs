@@ -8,6 +8,8 @@ use super::phrase::NounAt;
 use super::scene::Scene;
 use super::syntax::{Clause, Head, Link, Phrase, Relation, is_determiner, is_function_word, preposition};
 use opening::Opening;
+use shape::{goes_somewhere, only_pronouns, places};
+pub use shape::{is_denied, is_going};
 
 /// More clauses than this are not read.
 const MOST_CLAUSES: usize = 32;
@@ -194,8 +196,14 @@ impl<'a> Parser<'a> {
             && (!opening.sentence || goes_somewhere(&clause))
             && (!clause.objects.is_empty() || goes_somewhere(&clause) && places(previous))
         {
-            clause.verbs.clone_from(&previous.verbs);
-            clause.verb_text.clone_from(&previous.verb_text);
+            if only_pronouns(previous) && goes_somewhere(&clause) && !places(previous) {
+                // "put it on the desk and shut it, the pen in the drawer"
+                clause.verbs = self.putting();
+                clause.verb_text = "put".to_owned();
+            } else {
+                clause.verbs.clone_from(&previous.verbs);
+                clause.verb_text.clone_from(&previous.verb_text);
+            }
             // "put the card in the box, then the keys"
             if clause.places.is_empty() && clause.complement.is_empty() && places(previous) {
                 clause.places.clone_from(&previous.places);
@@ -232,9 +240,7 @@ impl<'a> Parser<'a> {
         if clause.verbs.is_empty()
             && clause.unknown.iter().all(goes)
             && !told
-            && !said
-                .iter()
-                .any(|word| ["not", "doesnt", "shouldnt", "mustnt", "dont"].contains(&word.as_str()))
+            && !is_denied(said)
             && moved
             && (goes_somewhere(clause) || beside)
         {
@@ -316,6 +322,8 @@ impl<'a> Parser<'a> {
             "never" | "if" => self.position > start,
             "." => true,
             "," | "and" if self.is_complete(clause) && self.new_subject_follows() => true,
+            "," if self.another_wish_follows(clause, start) => true,
+            "," if only_pronouns(clause) && self.ahead_after_things().goal_follows() => true,
             "," | "and" if !self.switches && self.ahead_after_things().switched_follows() => true,
             "," | "and" => {
                 let mut ahead = self.ahead(1);
@@ -420,14 +428,22 @@ impl<'a> Parser<'a> {
         let wished = clause.verbs.iter().all(|verb| verb.act == Act::Keep);
         ahead.position += usize::from(ahead.peek().is_some_and(is_going));
         if !clause.complement.is_empty() {
-            return ahead.state_told() || ahead.complements_follow() || wished && ahead.goal_follows();
+            return ahead.state_told()
+                || ahead.complements_follow()
+                || wished && (ahead.goal_follows() || ahead.near_follows());
         }
         if wished && (ahead.state_told() || ahead.complements_follow()) {
             return true;
         }
+        // "the card with the keys in the box"
+        if let Some((Relation::With, length)) = preposition(&ahead.rest()) {
+            ahead.position += length;
+            ahead.phrases(0);
+        }
         preposition(&ahead.rest())
             .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To | Relation::Near))
             || ahead.peek().is_some_and(|word| ["should", "must", "needs", "need"].contains(&word))
+            || ahead.aside_state_follows()
             || ahead.complements_follow()
     }
 
@@ -442,6 +458,33 @@ impl<'a> Parser<'a> {
     /// Whether it is said here where something goes.
     fn goal_follows(&self) -> bool {
         preposition(&self.rest()).is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
+    }
+
+    /// Whether a state is put in and a place follows: ", closed, on the table".
+    fn aside_state_follows(&self) -> bool {
+        self.peek() == Some(",") && self.word_at(2) == Some(",") && {
+            self.ahead(1).state_told() && self.ahead(3).goal_follows()
+        }
+    }
+
+    /// Whether another thing is told here as it shall be, the verb understood: "the mug should be in the sink, the
+    /// bread sliced, …".
+    fn another_wish_follows(&self, clause: &Clause<'a>, start: usize) -> bool {
+        const SHALL: [&str; 5] = ["should", "must", "shall", "needs", "need"];
+        let said = self.words.get(start..self.position).unwrap_or_default();
+        let wished = said.iter().any(|word| SHALL.contains(&word.as_str()));
+        let told = clause.verbs.is_empty() && !clause.complement.is_empty();
+        let mut joined = self.ahead(0);
+        joined.skip_joins();
+        let ahead = self.ahead_after_things();
+        let things = ahead.position > joined.position;
+        let state = ahead.state_told();
+        things && (wished && self.is_complete(clause) && state || told && (state || ahead.goal_follows()))
+    }
+
+    /// Whether it is said here what something is beside.
+    fn near_follows(&self) -> bool {
+        preposition(&self.rest()).is_some_and(|(relation, _)| relation == Relation::Near)
     }
 
     /// Where the parser stands behind the things that come next.
@@ -459,27 +502,9 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// Whether a clause says where something goes.
-fn goes_somewhere(clause: &Clause<'_>) -> bool {
-    clause.places.iter().any(|place| matches!(place.relation, Relation::In | Relation::To))
-}
-
-/// "the fork goes in the drawer", "the bat leans on the wall": verbs of where things are to be.
-pub(super) fn is_going(word: &str) -> bool {
-    const GOING: [&str; 13] = [
-        "goes", "go", "belongs", "belong", "leans", "lean", "stays", "stay", "hangs", "moves", "move",
-        "comes", "come",
-    ];
-    GOING.contains(&word)
-}
-
-/// Whether a clause's verb puts things somewhere.
-fn places(clause: &Clause<'_>) -> bool {
-    clause.verbs.iter().any(|verb| verb.act == Act::Place)
-}
-
 mod argument;
 mod choice;
 mod opening;
 mod place;
+mod shape;
 mod verb;

@@ -40,7 +40,7 @@ pub struct Interpreter<'d, 'a> {
     switches_on: bool,
     clause: usize,
     /// What must not become so.
-    prohibitions: Vec<forbid::Prohibition>,
+    pub(super) prohibitions: Vec<forbid::Prohibition>,
     /// Whether the clause at hand said anything, new or not.
     pub spoke: bool,
 }
@@ -102,8 +102,8 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             };
         } else if let Some(elsewhere) = self.not_there(clause) {
             spoken = self.put_elsewhere(&elsewhere, next);
-        } else if clause.says_any(&["same", "likewise"]) && self.same_again(clause, &mut spoken) {
-        } else if let Some(mended) = left_so(clause).and_then(mended) {
+        } else if says_the_same(clause) && self.same_again(clause, &mut spoken) {
+        } else if let Some(mended) = left_so(clause).and_then(mended).or_else(|| left_running(clause)) {
             spoken = self.complaint(clause, &mended);
         } else if let Some(verb) = self.choose(clause) {
             let liquid = !clause.objects.is_empty() && clause.objects.iter().all(|o| o.liquid().is_some());
@@ -391,6 +391,16 @@ impl<'d, 'a> Interpreter<'d, 'a> {
     }
 }
 
+/// "likewise", "do the same", "the same with the spoon", but not "in the same drawer".
+fn says_the_same(clause: &Clause<'_>) -> bool {
+    let alike = |two: &[String]| {
+        two[0] == "same" && ["with", "for", "to", "goes", "applies", "thing"].contains(&two[1].as_str())
+    };
+    clause.says_any(&["likewise"])
+        || clause.says_any(&["same"]) && clause.says_any(&["do", "doing"])
+        || clause.words.windows(2).any(alike)
+}
+
 /// Whether a clause is about what was just spoken of.
 fn speaks_of_it(clause: &Clause<'_>) -> bool {
     !clause.verbs.is_empty()
@@ -431,10 +441,10 @@ fn about_the_same(a: &Change, b: &Change) -> bool {
 }
 
 mod changing;
-mod forbid;
+pub(super) mod forbid;
 mod holding;
 mod placing;
 mod telling;
 
 pub(in crate::offline) use telling::untrue_place;
-use telling::{left_so, mended};
+use telling::{left_running, left_so, mended};

@@ -5,6 +5,7 @@
 //! which is how compounds are joined and split.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Bound;
 use std::path::Path;
 
 use lamma_domains::goal::PropertyValue;
@@ -12,6 +13,8 @@ use serde::Deserialize;
 
 use super::inflect::{self, VerbForm};
 use super::situation::{self, Situation};
+use super::spelling::Spelling;
+use super::trigger::{Said, Trigger, TriggerWords};
 use crate::LmError;
 
 /// The files of a lexicon and those that are built in.
@@ -125,6 +128,9 @@ pub struct Use {
     /// It is said of a place.
     #[serde(default)]
     pub place: bool,
+    /// `when`, as it is tried.
+    #[serde(skip)]
+    pub triggers: Vec<Trigger>,
 }
 
 #[derive(Deserialize, Default)]
@@ -175,6 +181,11 @@ pub struct Lexicon {
     inside: BTreeMap<String, BTreeMap<String, Vec<String>>>,
     likes: BTreeMap<String, Vec<String>>,
     vocabulary: BTreeSet<String>,
+    trigger_words: TriggerWords,
+    /// The vocabulary that a strange word may be a slip for.
+    spelling: Spelling,
+    /// The verbs of one word.
+    bare_verbs: Spelling,
 }
 
 impl Lexicon {
@@ -237,15 +248,27 @@ impl Lexicon {
         self.under.extend(file.under);
         self.inside.extend(file.inside);
         self.likes.extend(file.likes);
-        for situation in file.situation {
+        for mut situation in file.situation {
             self.vocabulary.extend(situation::vocabulary(&situation.when));
+            situation.triggers = situation.when.iter().map(|when| self.trigger_words.trigger(when)).collect();
             self.situations.push(situation);
         }
-        for usage in file.uses {
+        for mut usage in file.uses {
             self.vocabulary.extend(situation::vocabulary(&usage.when));
+            usage.triggers = usage.when.iter().map(|when| self.trigger_words.trigger(when)).collect();
             self.uses.push(usage);
         }
+        self.index_spelling();
         Ok(())
+    }
+
+    /// What spelling is repaired with, after the words have changed.
+    fn index_spelling(&mut self) {
+        let misspellable = |known: &&str| !self.is_small("real", &[known]);
+        self.spelling = Spelling::of(self.vocabulary.iter().map(String::as_str).filter(misspellable));
+        let bare =
+            |(_, verbs): &(&String, &Vec<(Vec<String>, usize)>)| verbs.iter().any(|(p, _)| p.is_empty());
+        self.bare_verbs = Spelling::of(self.verb_index.iter().filter(bare).map(|(base, _)| base.as_str()));
     }
 
     /// Whether a type is known by its own name.
@@ -327,18 +350,12 @@ impl Lexicon {
 
     /// The verb of one word that is one letter away from a word: the one of the same first letter before others.
     pub fn near_verb(&self, word: &str) -> Option<(&str, Vec<&Verb>)> {
-        let letters: Vec<char> = word.chars().collect();
-        let near = |base: &&String| {
-            let other: Vec<char> = base.chars().collect();
-            other.len() >= 3 && super::text::damerau_levenshtein(&letters, &other) == 1
-        };
-        let bare = |base: &str| -> Vec<&Verb> {
-            let known = self.verb_index.get(base).map(Vec::as_slice).unwrap_or_default();
-            known.iter().filter(|(p, _)| p.is_empty()).map(|(_, index)| &self.verbs[*index]).collect()
-        };
-        let found = self.verb_index.keys().filter(near).filter(|base| !bare(base).is_empty());
-        let best = found.min_by_key(|base| (base.chars().next() != letters.first().copied(), base.len()))?;
-        Some((best, bare(best)))
+        let first = word.chars().next();
+        let found = self.bare_verbs.one_edit_away(word);
+        let best = found.min_by_key(|base| (base.chars().next() != first, base.len()))?;
+        let known = self.verb_index.get(best).map(Vec::as_slice).unwrap_or_default();
+        let bare = known.iter().filter(|(particles, _)| particles.is_empty());
+        Some((best, bare.map(|(_, index)| &self.verbs[*index]).collect()))
     }
 
     /// The state an adjective names.
@@ -353,7 +370,21 @@ impl Lexicon {
 
     /// The longest entry of a list of small words at the start of `words`, in words.
     pub fn longest_small(&self, list: &str, words: &[&str]) -> Option<usize> {
-        (1..=LONGEST.min(words.len())).rev().find(|&n| self.is_small(list, &words[..n]))
+        let known = self.small.get(list)?;
+        let joined = words[..LONGEST.min(words.len())].concat();
+        // No entry starts like it: most words are in none of the lists.
+        let start = joined.chars().next()?;
+        let near =
+            known.range::<str, _>((Bound::Included(&joined[..start.len_utf8()]), Bound::Unbounded)).next();
+        near.filter(|entry| entry.starts_with(start))?;
+        let mut end = joined.len();
+        for length in (1..=LONGEST.min(words.len())).rev() {
+            if known.contains(&joined[..end]) {
+                return Some(length);
+            }
+            end -= words[length - 1].len();
+        }
+        None
     }
 
     /// What switches a thing that has no switch of its own.
@@ -397,7 +428,17 @@ impl Lexicon {
         &self.uses
     }
 
-    /// The words it knows, for spelling.
+    /// Which words of triggers some words say.
+    pub fn said(&self, words: &[String]) -> Said {
+        self.trigger_words.said(words)
+    }
+
+    /// The words that a strange one may be a slip for.
+    pub fn spelling(&self) -> &Spelling {
+        &self.spelling
+    }
+
+    /// The words it knows.
     pub fn vocabulary(&self) -> &BTreeSet<String> {
         &self.vocabulary
     }

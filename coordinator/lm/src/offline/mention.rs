@@ -74,7 +74,7 @@ pub struct Discourse<'a> {
     /// What must not be done on the way.
     pub bans: Vec<Ban>,
     /// What is switched, and by what.
-    controls: Vec<(usize, usize)>,
+    pub(super) controls: Vec<(usize, usize)>,
 }
 
 impl<'a> Discourse<'a> {
@@ -115,7 +115,7 @@ impl<'a> Discourse<'a> {
             Head::Noun(noun) => self.noun(noun, phrase, at, wants),
             Head::Named(name) => self.named(name),
             Head::Pronoun { .. } if phrase.other || matches!(phrase.quantity, Quantity::Count(_)) => {
-                self.some_of_them(phrase)
+                self.some_of_them(phrase, wants)
             }
             Head::Pronoun { .. } if phrase.text.ends_with("former") || phrase.text.ends_with("latter") => {
                 self.one_of_two(phrase.text.ends_with("former"))

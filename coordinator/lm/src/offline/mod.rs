@@ -14,10 +14,14 @@ mod inflect;
 mod lexicon;
 mod mention;
 mod phrase;
+mod rewrite;
 mod scene;
 mod situation;
+mod snapshot;
+mod spelling;
 mod syntax;
 mod text;
+mod trigger;
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,6 +36,7 @@ pub use gloss::Gloss;
 use lexicon::{Act, Lexicon};
 use mention::{Discourse, Spoken};
 use scene::Scene;
+use snapshot::Snapshot;
 use syntax::Clause;
 pub(crate) use text::damerau_levenshtein;
 
@@ -145,6 +150,20 @@ struct Reading {
 }
 
 impl Reading {
+    /// Of what has no word in it that is known.
+    fn nothing(instruction: &str) -> Self {
+        Self {
+            decomposition: Decomposition::default(),
+            problems: vec![format!(
+                "I do not know what to do for \"{}\"",
+                text::shortened(&instruction.to_lowercase())
+            )],
+            others: Vec::new(),
+            only_goes: false,
+            concrete: false,
+        }
+    }
+
     /// The answer to what was `said`.
     fn answer(self, said: &str, assume: bool) -> Answer {
         let Self { decomposition, problems, others, only_goes, .. } = self;
@@ -190,10 +209,14 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         .filter(|token| repairs.contains(&text::repair_note(token)))
         .map(|token| (token.typed.clone(), token.text.clone()))
         .collect();
+    let tokens = rewrite::rewritten(tokens, lexicon);
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
     let words = text::without_asides(words, lexicon);
+    if text::says_nothing(&words, lexicon, scene) {
+        return Reading::nothing(instruction);
+    }
     let mut reading = word_by_word(&words, lexicon, scene);
-    let strong = situation::ranked(lexicon.situations(), &situation::words_of(&words), true);
+    let strong = situation::ranked(lexicon, &situation::words_of(&words), true);
     let explained = strong.first().map_or(0, |(_, explained)| *explained);
     let absent = reading.problems.iter().any(|problem| problem.starts_with("there is no "));
     let one_sentence = !words[..words.len().saturating_sub(1)].contains(&".".to_owned());
@@ -274,13 +297,20 @@ fn one_clause<'a>(
     lexicon: &Lexicon,
 ) {
     let clause = &clauses[index];
-    let situations = lexicon.situations();
+    // "empty the sink by moving the pan to the stove": what comes next says how.
+    let by = clauses.get(index + 1).is_some_and(|next| next.words.first().is_some_and(|word| word == "by"));
     let words = situation::words_of(&clause.words);
+    let names =
+        clause.objects.iter().any(|p| matches!(p.head, syntax::Head::Noun(_) | syntax::Head::Named(_)));
+    if by && !names && is_weak(clause, lexicon) {
+        done_by_what_follows(interpreter, clause);
+        return;
+    }
     if !clause.negated
         && is_weak(clause, lexicon)
         && !says_where(clause, interpreter.discourse.scene)
         && !says_state(clause, interpreter.discourse.scene)
-        && interpreter.first_situation(index, &situation::ranked(situations, &words, true), &words)
+        && interpreter.first_situation(index, &situation::ranked(lexicon, &words, true), &words)
     {
         interpreter.speak_of_what_came_about(index, clauses);
         return;
@@ -292,10 +322,9 @@ fn one_clause<'a>(
     let absent =
         interpreter.discourse.problems[before.problems..].iter().any(|p| p.starts_with("there is no "));
     // What was named and is not here is not to be replaced by what a situation would do.
-    let says_little = is_weak(clause, lexicon)
-        || !clause.objects.iter().any(|p| matches!(p.head, syntax::Head::Noun(_) | syntax::Head::Named(_)));
+    let says_little = is_weak(clause, lexicon) || !names;
     if failed && says_little && (!absent || is_weak(clause, lexicon)) {
-        let ranked = situation::ranked(situations, &words, false);
+        let ranked = situation::ranked(lexicon, &words, false);
         let literal = Snapshot::take(interpreter);
         before.restore(interpreter);
         if interpreter.first_situation(index, &ranked, &words) {
@@ -304,14 +333,24 @@ fn one_clause<'a>(
         }
         literal.restore(interpreter);
     }
+    if failed && by && !interpreter.spoke {
+        before.restore(interpreter);
+        done_by_what_follows(interpreter, clause);
+        return;
+    }
     let remark = clause.is_remark() && clauses.len() > 1;
     if failed && !interpreter.spoke && !clause.negated && !is_mere_step(clause) && !remark {
         interpreter.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.4);
     }
 }
 
+fn done_by_what_follows(interpreter: &mut Interpreter<'_, '_>, clause: &Clause<'_>) {
+    interpreter.discourse.spoken.push(Spoken::default());
+    interpreter.discourse.assume(format!("\"{}\" is done by what follows", clause.text), 0.95);
+}
+
 /// Whether a clause says too little by itself to stand against a situation: no verb, a weak one with nothing
-/// it can be done to, or "everything".
+/// it can be done to, "everything", or a turn of phrase.
 fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
     let first = clause.verb_text.split(' ').next().unwrap_or_default();
     let weak = inflect::bases(first).iter().any(|(base, _)| lexicon.is_small("weak", &[base]));
@@ -320,7 +359,9 @@ fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
     let places = clause.verbs.iter().any(|verb| verb.act == Act::Place)
         && clause.objects.iter().any(plain)
         && clause.places.iter().any(|place| matches!(place.phrase.head, syntax::Head::Noun(_)));
-    clause.verbs.is_empty() || weak && !clause.verb_text.contains(' ') && !places
+    let said: Vec<&str> = clause.words.iter().map(String::as_str).collect();
+    let idiom = (0..said.len()).any(|at| lexicon.longest_small("idioms", &said[at..]).is_some());
+    clause.verbs.is_empty() || idiom || weak && !clause.verb_text.contains(' ') && !places
 }
 
 /// Whether a clause says what a thing of the scene shall be like: "have the potato chopped" is no recipe.
@@ -391,41 +432,6 @@ fn is_mere_step(clause: &Clause<'_>) -> bool {
         })
 }
 
-/// What an attempt at a clause may change.
-struct Snapshot {
-    facts: Vec<Fact>,
-    entities: Vec<mention::Entity>,
-    spoken: Vec<Spoken>,
-    assumptions: Vec<String>,
-    problem_list: Vec<String>,
-    problems: usize,
-    confidence: mention::Confidence,
-}
-
-impl Snapshot {
-    fn take(interpreter: &Interpreter<'_, '_>) -> Self {
-        let discourse = &interpreter.discourse;
-        Self {
-            facts: interpreter.facts.clone(),
-            entities: discourse.entities.clone(),
-            spoken: discourse.spoken.clone(),
-            assumptions: discourse.assumptions.clone(),
-            problem_list: discourse.problems.clone(),
-            problems: discourse.problems.len(),
-            confidence: discourse.confidence,
-        }
-    }
-
-    fn restore(&self, interpreter: &mut Interpreter<'_, '_>) {
-        interpreter.facts.clone_from(&self.facts);
-        interpreter.discourse.entities.clone_from(&self.entities);
-        interpreter.discourse.spoken.clone_from(&self.spoken);
-        interpreter.discourse.assumptions.clone_from(&self.assumptions);
-        interpreter.discourse.problems.clone_from(&self.problem_list);
-        interpreter.discourse.confidence = self.confidence;
-    }
-}
-
 fn as_situation(
     words: &[String],
     instruction: &str,
@@ -433,7 +439,7 @@ fn as_situation(
     scene: &Scene<'_>,
 ) -> Option<Reading> {
     let words = situation::words_of(words);
-    let ranked = situation::ranked(lexicon.situations(), &words, false);
+    let ranked = situation::ranked(lexicon, &words, false);
     let mut discourse = Discourse::new(lexicon, scene);
     let clauses = [Clause {
         text: instruction.trim().to_owned(),

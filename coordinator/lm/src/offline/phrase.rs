@@ -42,6 +42,13 @@ impl Parser<'_> {
             self.position = start;
             return None;
         };
+        // "the food items"
+        if matches!(head, Head::Noun(_))
+            && matches!(self.peek(), Some("items" | "stuff" | "things" | "objects" | "goods"))
+        {
+            self.position += 1;
+            front.plural = true;
+        }
         let Front { mut phrase, quantity, sliced, plural, .. } = front;
         phrase.head = head;
         phrase.quantity = match (quantity, &phrase.head) {

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use lamma_domains::goal::PropertyValue;
 
 use super::lexicon::{Settings, split_camel_case};
+use super::spelling::Spelling;
 use crate::{ObjectView, RobotView};
 
 /// An index over the objects of a request.
@@ -12,6 +13,11 @@ pub struct Scene<'a> {
     objects: BTreeMap<&'a str, &'a ObjectView>,
     kinds: BTreeMap<&'a str, Vec<&'a ObjectView>>,
     words: BTreeSet<String>,
+    spelling: Spelling,
+    /// By name in lower case, the first of equal ones.
+    lower: BTreeMap<String, &'a ObjectView>,
+    /// What objects of each type afford.
+    affordances: BTreeMap<&'a str, BTreeSet<&'a str>>,
     team: &'a [RobotView],
 }
 
@@ -31,12 +37,17 @@ impl<'a> Scene<'a> {
             words.insert(phrase.replace(' ', ""));
             words.extend(phrase.split(' ').map(str::to_owned));
         }
-        Self {
-            objects: objects.iter().map(|object| (object.name.as_str(), object)).collect(),
-            kinds,
-            words,
-            team,
+        let objects: BTreeMap<&str, &ObjectView> =
+            objects.iter().map(|object| (object.name.as_str(), object)).collect();
+        let mut lower = BTreeMap::new();
+        let mut affordances: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+        for &object in objects.values() {
+            lower.entry(object.name.to_ascii_lowercase()).or_insert(object);
+            let known = affordances.entry(&object.kind).or_default();
+            known.extend(object.affordances.iter().map(String::as_str));
         }
+        let spelling = Spelling::of(words.iter().map(String::as_str));
+        Self { objects, kinds, words, spelling, lower, affordances, team }
     }
 
     /// The objects of a type, in the order of their numbers.
@@ -56,15 +67,12 @@ impl<'a> Scene<'a> {
 
     /// The object of a name, whatever its case.
     pub fn named(&self, name: &str) -> Option<&'a ObjectView> {
-        self.objects
-            .get(name)
-            .copied()
-            .or_else(|| self.objects.values().find(|object| object.name.eq_ignore_ascii_case(name)).copied())
+        self.objects.get(name).copied().or_else(|| self.lower.get(&name.to_ascii_lowercase()).copied())
     }
 
     /// Whether objects of a type afford something.
     pub fn affords(&self, kind: &str, affordance: &str) -> bool {
-        self.of_kind(kind).iter().any(|object| object.affordances.iter().any(|a| a == affordance))
+        self.affordances.get(kind).is_some_and(|known| known.contains(affordance))
     }
 
     /// Whether a receptacle type takes a type. Where a scene states nothing of a receptacle, it may.
@@ -96,9 +104,9 @@ impl<'a> Scene<'a> {
         self.team.is_empty() || self.of_kind(kind).iter().any(|object| object.mass_kg <= strength)
     }
 
-    /// The words of the types' names.
-    pub fn vocabulary(&self) -> impl Iterator<Item = &str> {
-        self.words.iter().map(String::as_str)
+    /// The words of the types' names, for spelling.
+    pub fn spelling(&self) -> &Spelling {
+        &self.spelling
     }
 
     /// Whether a word is one of the types' names.

@@ -7,10 +7,10 @@ use lamma_domains::goal::PropertyValue;
 use serde::Deserialize;
 
 use super::effect::{Change, Interpreter};
-use super::inflect;
-use super::lexicon::{LONGEST, Settings, squash};
+use super::lexicon::{LONGEST, Lexicon, Settings, squash};
 use super::mention::{Spoken, Which};
 use super::syntax::Clause;
+use super::trigger::{Said, Trigger};
 
 /// As many situations are tried as there may be nothing for in the scene.
 const MOST_TRIED: usize = 4;
@@ -28,6 +28,9 @@ pub struct Situation {
     /// It is taken even when the words could be read word by word.
     #[serde(default)]
     pub strong: bool,
+    /// `when`, as it is tried.
+    #[serde(skip)]
+    pub triggers: Vec<Trigger>,
 }
 
 /// A goal over whatever the scene has of some types.
@@ -68,8 +71,8 @@ pub struct Template {
 
 impl Situation {
     /// How many words a trigger explains, if one fits.
-    pub fn fits(&self, words: &[String]) -> Option<usize> {
-        self.when.iter().filter_map(|pattern| pattern_fits(pattern, words)).max()
+    pub fn fits(&self, said: &Said) -> Option<usize> {
+        self.triggers.iter().filter_map(|trigger| trigger.fits(said)).max()
     }
 }
 
@@ -79,46 +82,15 @@ pub fn vocabulary(when: &[String]) -> Vec<String> {
     words.filter(|word| !word.is_empty()).map(str::to_owned).collect()
 }
 
-/// How many words a trigger explains, if it fits.
-pub(super) fn pattern_fits(pattern: &str, words: &[String]) -> Option<usize> {
-    // "I am not hungry" is no hunger.
-    let denied = words
-        .windows(2)
-        .any(|two| two[1] == "not" && ["am", "im", "is", "are", "its", "it"].contains(&two[0].as_str()));
-    if denied && !pattern.contains("not") {
-        return None;
-    }
-    let mut explained = 0;
-    for part in pattern.split_whitespace() {
-        match part.strip_prefix('!') {
-            Some(absent) if absent.split('/').any(|option| has_word(words, option)) => return None,
-            Some(_) => {}
-            None if part.split('/').any(|option| has_word(words, option)) => explained += 1,
-            None => return None,
-        }
-    }
-    (explained > 0).then_some(explained)
-}
-
-fn has_word(words: &[String], wanted: &str) -> bool {
-    words.iter().any(|word| {
-        word == wanted
-            || inflect::singulars(word).iter().any(|s| s == wanted)
-            || inflect::bases(word).iter().any(|(base, _)| base == wanted)
-    })
-}
-
 /// The situations that explain something of the words and how much, those that explain most first; of those that
 /// explain as much, strong ones, then in the order of the file.
-pub fn ranked<'s>(
-    situations: &'s [Situation],
-    words: &[String],
-    strong_only: bool,
-) -> Vec<(&'s Situation, usize)> {
-    let mut found: Vec<(&Situation, usize)> = situations
+pub fn ranked<'s>(lexicon: &'s Lexicon, words: &[String], strong_only: bool) -> Vec<(&'s Situation, usize)> {
+    let said = lexicon.said(words);
+    let mut found: Vec<(&Situation, usize)> = lexicon
+        .situations()
         .iter()
         .filter(|situation| situation.strong || !strong_only)
-        .filter_map(|situation| Some((situation, situation.fits(words)?)))
+        .filter_map(|situation| Some((situation, situation.fits(&said)?)))
         .collect();
     found.sort_by_key(|(situation, score)| std::cmp::Reverse((*score, situation.strong)));
     found.truncate(MOST_TRIED);
@@ -138,7 +110,7 @@ impl Interpreter<'_, '_> {
 
     /// What a situation spoke of, where the next clause carries it on: "make a coffee and bring it to the table".
     pub fn speak_of_what_came_about(&mut self, index: usize, clauses: &[Clause<'_>]) {
-        let carried = clauses.get(index + 1).is_some_and(Clause::carries_it);
+        let carried = clauses.get(index + 1).is_some_and(|next| next.carries_it() || next.discards_it());
         let spoken = if carried { self.brought_about(index) } else { Spoken::default() };
         self.discourse.spoken.push(spoken);
     }

@@ -204,6 +204,12 @@ impl Clause<'_> {
                 .any(|place| matches!(place.relation, Relation::In | Relation::To | Relation::Near))
     }
 
+    /// Whether it throws away what was spoken of: "… get rid of it".
+    pub fn discards_it(&self) -> bool {
+        self.verbs.iter().any(|verb| verb.act == Act::Discard)
+            && self.objects.iter().any(|phrase| matches!(phrase.head, Head::Pronoun { .. }))
+    }
+
     /// Whether it tells something rather than asks for it: it has no verb known, but somebody is or does something.
     pub fn is_remark(&self) -> bool {
         const TELLS: [&str; 16] = [

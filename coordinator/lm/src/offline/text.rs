@@ -119,9 +119,8 @@ fn repair(word: &str, lexicon: &Lexicon, scene: &Scene) -> Option<String> {
     if letters.next() == letters.next() && !lexicon.verbs(&word[..word.len() - 1]).is_empty() {
         return Some(word[..word.len() - 1].to_owned());
     }
-    let in_scene = nearest(word, scene.vocabulary());
-    let misspellable = |known: &&str| !lexicon.is_small("real", &[known]);
-    let in_lexicon = nearest(word, lexicon.vocabulary().iter().map(String::as_str).filter(misspellable));
+    let in_scene = scene.spelling().nearest(word);
+    let in_lexicon = lexicon.spelling().nearest(word);
     let best = match (in_scene, in_lexicon) {
         (Some(scene), Some(lexicon)) if scene.1 <= lexicon.1 => Some(scene),
         (_, Some(lexicon)) => Some(lexicon),
@@ -244,6 +243,16 @@ pub fn without_asides(words: Vec<String>, lexicon: &Lexicon) -> Vec<String> {
     kept
 }
 
+/// Whether no word is known to mean a thing, a doing or a state.
+pub fn says_nothing(words: &[String], lexicon: &Lexicon, scene: &Scene) -> bool {
+    let means = |word: &String| {
+        scene.named(word).is_some()
+            || !super::syntax::is_function_word(word) && is_known(word, lexicon, scene)
+            || super::syntax::preposition(&[word]).is_some()
+    };
+    !words.iter().any(means)
+}
+
 /// Whether a word needs no repair.
 pub fn is_known(word: &str, lexicon: &Lexicon, scene: &Scene) -> bool {
     super::syntax::is_function_word(word)
@@ -256,46 +265,6 @@ pub fn is_known(word: &str, lexicon: &Lexicon, scene: &Scene) -> bool {
         || super::inflect::singulars(word)
             .iter()
             .any(|s| lexicon.vocabulary().contains(s) || scene.has_word(s))
-}
-
-/// The nearest of some words, if it is near enough; of equally near ones, the one of the same length and
-/// first letter, then the first in order.
-fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<(String, usize)> {
-    let limit = if word.chars().count() >= 7 { 2 } else { 1 };
-    let letters: Vec<char> = word.chars().collect();
-    let mut best: Option<((usize, bool, usize), String)> = None;
-    let alphabet = letter_set(word);
-    for candidate in known {
-        // An edit changes two letters of the alphabet at most, and a plural adds one: most words are far.
-        if (alphabet ^ letter_set(candidate)).count_ones() as usize > 2 * limit + 1 {
-            continue;
-        }
-        let length = candidate.chars().count();
-        if length < 4 || length.abs_diff(letters.len()) > limit {
-            continue;
-        }
-        let mut plurals = vec![(candidate.to_owned(), candidate.to_owned())];
-        if word.ends_with('s') && !candidate.ends_with('s') {
-            plurals.push((format!("{candidate}s"), format!("{candidate}s")));
-        }
-        for (form, answer) in plurals {
-            let other: Vec<char> = form.chars().collect();
-            let distance = damerau_levenshtein(&letters, &other);
-            if distance > limit {
-                continue;
-            }
-            let score = (distance, letters.first() != other.first(), other.len().abs_diff(letters.len()));
-            if best.as_ref().is_none_or(|(found, _)| score < *found) {
-                best = Some((score, answer));
-            }
-        }
-    }
-    best.map(|(score, answer)| (answer, score.0))
-}
-
-/// Which of the letters a to z are in a word.
-fn letter_set(word: &str) -> u32 {
-    word.bytes().filter(u8::is_ascii_lowercase).fold(0, |set, letter| set | 1 << (letter - b'a'))
 }
 
 /// Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours

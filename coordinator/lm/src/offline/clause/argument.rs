@@ -31,8 +31,11 @@ impl<'a> Parser<'a> {
             return false;
         }
         let free = next.is_none_or(|next| {
-            [",", ".", "and", "then", "before", "after", "while", "but", "again", "please", "so"]
-                .contains(&next)
+            [
+                ",", ".", "and", "then", "before", "after", "while", "but", "again", "please", "so", "when",
+                "once", "without", "if", "until", "because", "since", "unless", "too", "also",
+            ]
+            .contains(&next)
                 || preposition(&[next]).is_some()
                 || self.lexicon.is_small("polite", &[next])
         });

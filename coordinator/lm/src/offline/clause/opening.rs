@@ -46,15 +46,15 @@ impl Parser<'_> {
                 self.position += length;
                 continue;
             }
+            let polite = self.lexicon.longest_small("polite", &rest);
+            if let Some(length) = polite.filter(|&length| length > 1) {
+                self.position += length;
+                continue;
+            }
             if let Some(length) = self.lexicon.longest_small("parallel", &rest) {
                 if word != "as" {
                     opening.link = Link::While;
                 }
-                self.position += length;
-                continue;
-            }
-            let polite = self.lexicon.longest_small("polite", &rest);
-            if let Some(length) = polite.filter(|&length| length > 1) {
                 self.position += length;
                 continue;
             }
@@ -119,7 +119,7 @@ impl Parser<'_> {
     }
 
     /// "with the lights off": a state that is to hold.
-    pub(super) fn state_follows(&self) -> bool {
+    pub(in crate::offline) fn state_follows(&self) -> bool {
         let mut ahead = self.ahead(1);
         let things = if self.peek() == Some("with") { ahead.phrases(0) } else { Vec::new() };
         if things.is_empty() {
@@ -171,7 +171,11 @@ impl Parser<'_> {
     /// "when all of that is done", "while this is going on": only the order, whatever the words.
     fn done_or_under_way(&self) -> Option<(Link, usize)> {
         const JOINS: [&str; 8] = ["when", "once", "after", "while", "whilst", "as", "until", "soon"];
-        const WHAT: [&str; 13] = [
+        const WHAT: [&str; 17] = [
+            "you",
+            "we",
+            "youre",
+            "im",
             "that",
             "this",
             "it",
@@ -198,7 +202,7 @@ impl Parser<'_> {
         let joins = run(0, &JOINS);
         let what = run(joins, &WHAT);
         let auxiliaries = run(joins + what, &AUXILIARIES);
-        let contracted = self.word_at(joins) == Some("thats") || self.word_at(joins) == Some("its");
+        let contracted = matches!(self.word_at(joins), Some("thats" | "its" | "youre" | "im"));
         if joins == 0 || what == 0 || auxiliaries == 0 && !contracted {
             return None;
         }
@@ -211,7 +215,10 @@ impl Parser<'_> {
         let particle = matches!(self.word_at(length), Some("on"));
         let under_way = word == "under" && self.word_at(length) == Some("way")
             || word == "in" && self.word_at(length) == Some("progress");
-        (UNDER_WAY.contains(&word) || under_way)
+        // "while you are heating the bread" is a clause.
+        let person =
+            (joins..joins + what).any(|at| matches!(self.word_at(at), Some("you" | "we" | "youre" | "im")));
+        (!person && (UNDER_WAY.contains(&word) || under_way))
             .then_some((Link::While, length + usize::from(particle || under_way)))
     }
 

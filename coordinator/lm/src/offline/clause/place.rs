@@ -153,14 +153,24 @@ impl<'a> Parser<'a> {
                 return;
             };
             let mut behind = self.ahead(0);
-            if behind.skip_joins() {
+            let joined = behind.skip_joins();
+            let told = joined && behind.state_told();
+            if joined && !told {
                 behind.phrases(0);
+                let closed = behind.peek() == Some(",") && behind.ahead(1).place_length().is_some();
+                behind.position += usize::from(closed);
             }
             behind.position += usize::from(behind.peek().is_some_and(is_going));
+            // "next to it, the card with the keys in the box"
+            if let Some((Relation::With, length)) = preposition(&behind.rest()) {
+                behind.position += length;
+                behind.phrases(0);
+            }
             let goes_elsewhere = preposition(&behind.rest())
                 .is_some_and(|(other, _)| other != Relation::From && other != Relation::With);
             let another_pair = self.switched_follows()
-                || !clause.complement.is_empty() && self.state_told()
+                || told
+                || (!clause.complement.is_empty() || clause.verbs.is_empty()) && self.state_told()
                 || relation != Relation::From
                     && !(relation == Relation::With && self.wants_place && clause.places.len() == 1)
                     && (goes_elsewhere || preposition(&self.rest()).is_some())

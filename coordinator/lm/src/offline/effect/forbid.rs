@@ -9,6 +9,7 @@ use crate::ObjectView;
 use lamma_domains::goal::PropertyValue;
 
 /// What must not come about or be done.
+#[derive(Clone)]
 pub struct Prohibition {
     clause: usize,
     text: String,

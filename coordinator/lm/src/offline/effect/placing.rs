@@ -31,6 +31,13 @@ impl<'a> Interpreter<'_, 'a> {
             }
             return self.put(clause, &at, &goal);
         }
+        if clause.verb_text == "add" && clause.places.is_empty() && verb.act == Act::Place {
+            let objects = self.objects(clause, &at, Some("pickupable"));
+            if let Some(place) = self.place_spoken_of(&objects) {
+                objects.iter().for_each(|&entity| self.put_in(entity, place));
+                return Spoken { objects, placed: true, places: vec![place], ..Spoken::default() };
+            }
+        }
         let meanwhile = clause.link == Link::While && self.lamp_wanted && self.switches_on;
         // "put the fork with the plate": where that is.
         let near = |place: &&Place| match place.relation {

@@ -1,5 +1,6 @@
 //! Clauses without a verb: what is told, wished for or complained of.
 
+use super::super::clause::is_denied;
 use super::super::clause::is_going;
 use super::super::lexicon::Act;
 use super::super::mention::Spoken;
@@ -84,7 +85,7 @@ impl<'a> Interpreter<'_, 'a> {
         ];
         let stays = clause.verbs.iter().all(|verb| matches!(verb.act, Act::Keep | Act::Place | Act::Go));
         let denied = clause.negated && clause.verb_text.starts_with("leav")
-            || !clause.negated && clause.says_any(&["not", "doesnt", "shouldnt", "mustnt", "dont", "no"]);
+            || !clause.negated && (is_denied(&clause.words) || clause.says_any(&["no"]));
         let place = clause.places.iter().position(|place| place.relation == Relation::In)?;
         let fits = denied
             && stays
@@ -182,6 +183,10 @@ pub(in crate::offline) fn untrue_place<'c>(clause: &'c Clause<'_>, scene: &Scene
     let told = clause.says_any(&["is", "are"]) && clause.verbs.is_empty() && clause.unknown.is_empty();
     let place = clause.places.iter().find(|place| place.relation == Relation::In).filter(|_| told)?;
     let Head::Noun(home) = &place.phrase.head else { return None };
+    // "the towels are on the floor" is a complaint.
+    if home.kinds.iter().any(|kind| kind == "Floor") {
+        return None;
+    }
     let elsewhere = |phrase: &Phrase| match &phrase.head {
         Head::Noun(noun) => {
             let mut here = noun.kinds.iter().filter(|kind| scene.affords(kind, "pickupable")).peekable();
@@ -207,6 +212,17 @@ fn is_need(word: &str) -> bool {
 /// "somebody left the lamp on": tells what was done, and asks for nothing by its words.
 pub(super) fn left_so<'c, 'a>(clause: &'c Clause<'a>) -> Option<&'c Clause<'a>> {
     (clause.verb_text == "left" && !clause.complement.is_empty() && !clause.wants()).then_some(clause)
+}
+
+/// "someone left the tap running": it is to be switched off.
+pub(super) fn left_running<'a>(clause: &Clause<'a>) -> Option<Clause<'a>> {
+    let left = clause.verb_text.split(' ').next() == Some("left");
+    let on = clause.verbs.iter().any(|verb| verb.set.get("isToggled") == Some(&crate::offline::yes()));
+    (left && on && clause.complement.is_empty() && !clause.wants()).then(|| {
+        let mut mended = clause.clone();
+        mended.complement.insert("isToggled".to_owned(), crate::offline::no());
+        mended
+    })
 }
 
 /// What a complaint asks for: what is dirty is to be clean, what was left open is to be closed.

@@ -92,7 +92,10 @@ impl Discourse<'_> {
     }
 
     /// "all three", "the other two": so many of those spoken of last, without those spoken of since by themselves.
-    pub(super) fn some_of_them(&mut self, phrase: &Phrase) -> Vec<usize> {
+    pub(super) fn some_of_them(&mut self, phrase: &Phrase, wants: Option<&str>) -> Vec<usize> {
+        let able = |this: &Self, entity: usize| {
+            wants.is_none_or(|wants| this.affords(this.entities[entity].kind(), wants))
+        };
         let wanted = match phrase.quantity {
             Quantity::Count(count) => count,
             _ => usize::MAX,
@@ -100,7 +103,8 @@ impl Discourse<'_> {
         let mut found: Vec<usize> = Vec::new();
         let mut singled: BTreeSet<usize> = BTreeSet::new();
         for spoken in self.spoken.iter().rev() {
-            let group: Vec<usize> = spoken.objects.iter().copied().filter(|e| !found.contains(e)).collect();
+            let group: Vec<usize> =
+                spoken.objects.iter().copied().filter(|&e| !found.contains(&e) && able(self, e)).collect();
             if phrase.other && group.len() < 2 {
                 singled.extend(group);
                 continue;

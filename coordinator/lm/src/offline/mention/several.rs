@@ -96,8 +96,8 @@ impl Discourse<'_> {
         phrase: &Phrase,
         at: &[Place],
     ) -> Vec<usize> {
-        let uncountable = !noun.word.ends_with('s')
-            && ["food", "cutlery", "silverware", "produce", "fruit"].contains(&noun.word.as_str());
+        let uncountable =
+            self.lexicon.is_small("uncountable", &[&crate::offline::lexicon::squash(&noun.word)]);
         let found = match phrase.quantity {
             Quantity::Count(count) => {
                 let there: usize = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).sum();

@@ -1,7 +1,7 @@
 //! Several noun phrases: what is joined by "and" and commas, and where such a list ends.
 
 use super::super::clause::{Parser, is_going};
-use super::super::syntax::{Head, Phrase, Quantity};
+use super::super::syntax::{Head, Phrase, Quantity, Relation, preposition};
 use super::DEEPEST;
 
 impl Parser<'_> {
@@ -14,6 +14,13 @@ impl Parser<'_> {
             let start = self.position;
             let joined = self.skip_joins();
             if !joined || self.clause_starts_here(false) || self.another_subject(depth > 0) {
+                self.position = start;
+                return found;
+            }
+            // "shut it, the pen and the book on the desk": another thing is said of them.
+            let after_pronoun = self.words[start] == ","
+                && found.last().is_some_and(|phrase| matches!(phrase.head, Head::Pronoun { .. }));
+            if after_pronoun && self.is_put_somewhere() {
                 self.position = start;
                 return found;
             }
@@ -38,8 +45,9 @@ impl Parser<'_> {
                         phrase.quantity = Quantity::All;
                     }
                     // "both the plate and the bowl": one of each.
-                    if let [first] = found.as_mut_slice()
+                    if let Some(first) = found.last_mut()
                         && first.text.starts_with("both ")
+                        && self.words[start] == "and"
                     {
                         first.quantity = Quantity::One;
                     }
@@ -72,6 +80,14 @@ impl Parser<'_> {
             && ahead.peek().is_some_and(|word| {
                 is_going(word) || ["should", "must", "need", "needs", "is", "are"].contains(&word)
             })
+    }
+
+    /// Whether things are named here and then a place.
+    fn is_put_somewhere(&self) -> bool {
+        let mut ahead = self.ahead(0);
+        while ahead.phrase(DEEPEST).is_some() && ahead.skip_joins() {}
+        preposition(&ahead.rest())
+            .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
     }
 
     /// Passes over "and", commas and the like between noun phrases.

@@ -91,12 +91,7 @@ impl Parser<'_> {
 
     /// A verb where a noun is due, a letter away from what the scene has: "put the clean put on the stove".
     pub(super) fn miswritten_noun(&self, word: &str) -> Option<Noun> {
-        let letters: Vec<char> = word.chars().collect();
-        let near = |known: &&str| {
-            let other: Vec<char> = known.chars().collect();
-            other.len() >= 3 && super::super::text::damerau_levenshtein(&letters, &other) == 1
-        };
-        let meant = self.scene.vocabulary().find(near)?;
+        let meant = self.scene.spelling().one_edit_away(word).next()?;
         self.lexicon.noun(&[meant]).map(|(noun, _)| noun.clone())
     }
 

@@ -35,7 +35,7 @@ impl Parser<'_> {
                     self.position += 2;
                     phrase.with.extend(self.phrases(depth + 1));
                 }
-                Some("with") if self.is_vessel(phrase) => {
+                Some("with") if self.is_vessel(phrase) && !self.state_follows() => {
                     self.position += 1;
                     let with = self.phrases(depth + 1);
                     if with.is_empty() {
@@ -88,7 +88,7 @@ impl Parser<'_> {
                     if matches!(self.peek(), Some("for" | "from")) {
                         self.position += 1;
                     }
-                    phrase.except.extend(self.phrases(depth + 1));
+                    phrase.except.extend(self.excepted(depth));
                 }
                 Some("that" | "which" | "who" | "you" | "we" | "i") if self.relative().is_some() => {
                     self.states_of_relative(phrase);
@@ -106,6 +106,22 @@ impl Parser<'_> {
             }
             if self.position == start {
                 return;
+            }
+        }
+    }
+
+    /// "everything except the fork and the knife goes …": all that is joined, whatever is said behind it.
+    fn excepted(&mut self, depth: usize) -> Vec<Phrase> {
+        let mut found = self.phrases(depth + 1);
+        loop {
+            let start = self.position;
+            let joined = self.peek() == Some("and") && self.skip_joins() && !self.clause_starts_here(false);
+            match self.phrase(depth + 1).filter(|_| joined) {
+                Some(phrase) if matches!(phrase.head, Head::Noun(_)) => found.push(phrase),
+                _ => {
+                    self.position = start;
+                    return found;
+                }
             }
         }
     }

@@ -3,7 +3,6 @@
 
 use super::super::clause::Parser;
 use super::super::lexicon::Noun;
-use super::super::situation::pattern_fits;
 use super::super::syntax::{Head, Phrase, Quantity, is_determiner, preposition};
 use super::Front;
 
@@ -100,8 +99,9 @@ impl Parser<'_> {
 
     fn best_use(&self, place: bool, said: &[String]) -> Option<(Vec<String>, usize)> {
         let mut best: Option<(&Vec<String>, usize)> = None;
+        let said = self.lexicon.said(said);
         for usage in self.lexicon.uses().iter().filter(|usage| usage.place == place) {
-            let explained = usage.when.iter().filter_map(|pattern| pattern_fits(pattern, said)).max();
+            let explained = usage.triggers.iter().filter_map(|trigger| trigger.fits(&said)).max();
             if let Some(explained) = explained
                 && best.is_none_or(|(_, known)| explained > known)
             {

@@ -97,14 +97,22 @@ pub fn preposition(words: &[&str]) -> Option<(Relation, usize)> {
     if let Some(length) = to_one_side_of(words) {
         return Some((Relation::Near, length));
     }
+    if !may_begin_one(first) {
+        return None;
+    }
     PREPOSITIONS.iter().find_map(|(phrase, relation)| {
-        let mut parts = phrase.split(' ');
-        if parts.next() != Some(first) {
-            return None;
+        let rest = phrase.strip_prefix(first)?;
+        if rest.is_empty() {
+            return Some((*relation, 1));
         }
-        let length = phrase.split(' ').count();
-        let fits = words.len() >= length && phrase.split(' ').zip(words).all(|(a, b)| a == *b);
-        fits.then_some((*relation, length))
+        let mut length = 1;
+        for part in rest.strip_prefix(' ')?.split(' ') {
+            if words.get(length) != Some(&part) {
+                return None;
+            }
+            length += 1;
+        }
+        Some((*relation, length))
     })
 }
 
@@ -129,4 +137,74 @@ fn to_one_side_of(words: &[&str]) -> Option<usize> {
     let length = sides.iter().take_while(|word| SIDES.contains(word)).count();
     let beside = sides[..length].iter().any(|word| ["left", "right", "side"].contains(word));
     (beside && sides.get(length) == Some(&"of")).then_some(length + 3)
+}
+
+/// Whether a word begins a preposition: most do not, and this is asked of every word many times.
+fn may_begin_one(word: &str) -> bool {
+    matches!(
+        word,
+        "above"
+            | "across"
+            | "adjacent"
+            | "against"
+            | "along"
+            | "among"
+            | "around"
+            | "at"
+            | "atop"
+            | "away"
+            | "back"
+            | "behind"
+            | "below"
+            | "beneath"
+            | "beside"
+            | "besides"
+            | "between"
+            | "beyond"
+            | "by"
+            | "close"
+            | "closest"
+            | "down"
+            | "facing"
+            | "for"
+            | "from"
+            | "in"
+            | "inside"
+            | "into"
+            | "left"
+            | "near"
+            | "nearest"
+            | "next"
+            | "off"
+            | "on"
+            | "onto"
+            | "opposite"
+            | "out"
+            | "over"
+            | "right"
+            | "to"
+            | "together"
+            | "toward"
+            | "towards"
+            | "under"
+            | "underneath"
+            | "upon"
+            | "using"
+            | "via"
+            | "with"
+            | "within"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_preposition_is_found_by_its_words() {
+        for (phrase, _) in PREPOSITIONS {
+            let words: Vec<&str> = phrase.split(' ').collect();
+            assert_eq!(preposition(&words).map(|(_, length)| length), Some(words.len()), "{phrase}");
+        }
+    }
 }

@@ -1,0 +1,452 @@
+//! Plainer words for the same thing: subordinate clauses made main ones, asides left out, before the grammar reads.
+
+use super::clause::is_going;
+use super::lexicon::{LONGEST, Lexicon};
+use super::syntax::is_determiner;
+use super::text::Token;
+
+/// An aside is no longer than this, in words.
+const LONGEST_ASIDE: usize = 8;
+
+/// Words that say that something shall be.
+const SHALL: [&str; 14] = [
+    "should", "must", "shall", "can", "could", "may", "will", "needs", "need", "has", "have", "is", "are",
+    "gets",
+];
+
+/// A sentence in plainer words.
+pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
+    let mut text = Rewriting { tokens, lexicon };
+    text.headings();
+    text.subjects();
+    text.small_words();
+    text.relatives();
+    text.exceptions();
+    text.denials();
+    text.which();
+    text.reasons();
+    text.same_of_others();
+    text.named_members();
+    text.tokens
+}
+
+struct Rewriting<'l> {
+    tokens: Vec<Token>,
+    lexicon: &'l Lexicon,
+}
+
+impl Rewriting<'_> {
+    fn at(&self, index: usize) -> &str {
+        self.tokens.get(index).map_or("", |token| token.text.as_str())
+    }
+
+    fn starts(&self, index: usize, words: &[&str]) -> bool {
+        words.iter().enumerate().all(|(offset, word)| self.at(index + offset) == *word)
+    }
+
+    fn is_mark(&self, index: usize) -> bool {
+        index >= self.tokens.len() || [",", "."].contains(&self.at(index))
+    }
+
+    /// Where the next mark of some stands, from a place on.
+    fn next_mark(&self, from: usize, marks: &[&str]) -> usize {
+        (from..self.tokens.len()).find(|&at| marks.contains(&self.at(at))).unwrap_or(self.tokens.len())
+    }
+
+    fn say(&mut self, from: usize, to: usize, words: &[&str]) {
+        let to = to.min(self.tokens.len());
+        let word = |word: &&str| Token { text: (*word).to_owned(), typed: (*word).to_owned() };
+        self.tokens.splice(from..to, words.iter().map(word));
+    }
+
+    /// "another the spoon", "a third should …": somebody does it, and no matter who.
+    fn subjects(&mut self) {
+        const WHO: [&[&str]; 17] = [
+            &["one", "robot"],
+            &["a", "robot"],
+            &["another", "robot"],
+            &["the", "other", "robot"],
+            &["somebody"],
+            &["one", "of", "you"],
+            &["one", "of", "them"],
+            &["another", "of", "you"],
+            &["a", "second", "one"],
+            &["a", "third", "one"],
+            &["a", "second"],
+            &["a", "third"],
+            &["a", "fourth"],
+            &["the", "second"],
+            &["the", "third"],
+            &["another"],
+            &["the", "other"],
+        ];
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let opens = index == 0 || [",", ".", "and", "while", "then"].contains(&self.at(index - 1));
+            let who = WHO.iter().find(|who| opens && self.starts(index, who));
+            if let Some(length) = who.map(|who| who.len()) {
+                let next = self.at(index + length);
+                let ordered = ["should", "must", "shall", "can", "could", "will"].contains(&next);
+                let of_you = length == 3 && next.ends_with('s') && !self.lexicon.verbs(next).is_empty();
+                let doing = self.at(index + length + 1);
+                if ["is", "are"].contains(&next)
+                    && doing.ends_with("ing")
+                    && !self.lexicon.verbs(doing).is_empty()
+                {
+                    self.say(index, index + length + 1, &[]);
+                } else if is_determiner(next) || ordered && length > 1 || of_you {
+                    self.say(index, index + length + usize::from(ordered), &[]);
+                }
+            }
+            index += 1;
+        }
+    }
+
+    /// "Clear the table: the mug goes …": what is said behind the colon says how.
+    fn headings(&mut self) {
+        const WEAK: [&str; 8] = ["clear", "tidy", "sort", "organize", "organise", "here", "there", "clean"];
+        let mut start = 0;
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let colon = self.tokens[index].typed == ":";
+            let end = self.next_mark(index + 1, &["."]);
+            let first = self.at(start).to_owned();
+            let weak = WEAK.contains(&first.as_str()) || self.lexicon.is_small("weak", &[&first]);
+            let told =
+                (index + 1..end).any(|at| is_going(self.at(at)) || ["should", "must"].contains(&self.at(at)));
+            let next = self.at(index + 1);
+            let ordered = !self.lexicon.verbs(next).is_empty() && self.lexicon.noun(&[next]).is_none();
+            if colon && weak && index - start <= LONGEST_ASIDE && (told || ordered) {
+                self.say(start, index + 1, &[]);
+                index = start;
+                continue;
+            }
+            if self.at(index) == "." {
+                start = index + 1;
+            }
+            index += 1;
+        }
+    }
+
+    /// "they all go", "the same drawer", "stay out on the table"
+    fn small_words(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let (before, word, next) = (self.at(index - 1), self.at(index), self.at(index + 1));
+            let all = before == "they" && ["all", "both"].contains(&word);
+            let same = before == "the" && word == "same" && self.lexicon.noun(&[next]).is_some();
+            let out = ["stay", "stays", "left", "kept", "stand"].contains(&before)
+                && word == "out"
+                && super::syntax::preposition(&[next]).is_some_and(|_| next != "of");
+            if all || same || out {
+                self.say(index, index + 1, &[]);
+            }
+            // "once clean, they go …"
+            if self.is_mark(index - 1)
+                && ["once", "when", "after"].contains(&self.at(index))
+                && self.lexicon.adjective(&[self.at(index + 1)]).is_some()
+                && self.at(index + 2) == ","
+            {
+                self.say(index, index + 3, &["then"]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "the book I am reading", "the food that has to stay cold": which one is meant is known without it.
+    fn relatives(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let known = self.noun_before(index).is_some();
+            let person = ["i", "we", "you", "he", "she", "they"].contains(&self.at(index));
+            let being = ["am", "are", "is", "was", "were"].contains(&self.at(index + 1));
+            let doing =
+                |at: usize| self.at(at).ends_with("ing") && !self.lexicon.verbs(self.at(at)).is_empty();
+            let must =
+                ["has", "have", "needs", "need"].contains(&self.at(index + 1)) && self.at(index + 2) == "to";
+            let stay = ["stay", "be", "keep"].contains(&self.at(index + 3))
+                && self.lexicon.adjective(&[self.at(index + 4)]).is_some();
+            if known && person && being && doing(index + 2) {
+                self.say(index, index + 3, &[]);
+            } else if known && ["im", "were"].contains(&self.at(index)) && doing(index + 1) {
+                self.say(index, index + 2, &[]);
+            } else if known && ["that", "which"].contains(&self.at(index)) && must && stay {
+                self.say(index, index + 5, &[]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "apart from the fork", "everything but the fork"
+    fn exceptions(&mut self) {
+        for index in 0..self.tokens.len() {
+            if ["apart", "aside"].contains(&self.at(index)) && self.at(index + 1) == "from" {
+                self.say(index, index + 2, &["except"]);
+            } else if self.at(index) == "but" && is_determiner(self.at(index + 1)) {
+                let before = (index.saturating_sub(LONGEST_ASIDE)..index).rev();
+                let all = before
+                    .take_while(|&at| !self.is_mark(at))
+                    .any(|at| ["everything", "all", "every", "anything"].contains(&self.at(at)));
+                if all {
+                    self.say(index, index + 1, &["except"]);
+                }
+            }
+        }
+    }
+
+    /// "neither the stove nor the tap should be on": both should not be; "make it so that …": make sure of it.
+    fn denials(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let opens = index == 0 || [",", ".", "and", "that"].contains(&self.at(index - 1));
+            if self.starts(index, &["make", "it", "so"]) {
+                let that = usize::from(self.at(index + 3) == "that");
+                self.say(index, index + 3 + that, &["make", "sure"]);
+            }
+            if opens && self.at(index) == "neither" {
+                let end = self.next_mark(index, &["."]);
+                let nor = (index..end).find(|&at| self.at(at) == "nor");
+                let shall = nor.and_then(|nor| (nor..end).find(|&at| SHALL[..13].contains(&self.at(at))));
+                if let (Some(nor), Some(shall)) = (nor, shall) {
+                    self.say(shall + 1, shall + 1, &["not"]);
+                    self.say(nor, nor + 1, &["and"]);
+                    self.say(index, index + 1, &[]);
+                }
+            }
+            index += 1;
+        }
+    }
+
+    /// The noun that ends before a place, in words.
+    fn noun_before(&self, end: usize) -> Option<Vec<String>> {
+        (1..=LONGEST.min(end)).rev().find_map(|length| {
+            let words: Vec<&str> = (end - length..end).map(|at| self.at(at)).collect();
+            self.lexicon.noun(&words)?;
+            Some(words.into_iter().map(str::to_owned).collect())
+        })
+    }
+
+    /// "…, which goes in the fridge": said of the noun before it, in a sentence of its own; "…, which is old, …" is
+    /// an aside.
+    fn which(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            if self.at(index) != "which" || self.at(index - 1) != "," {
+                index += 1;
+                continue;
+            }
+            let closes = self.next_mark(index, &[",", "."]);
+            let next = self.at(index + 1).to_owned();
+            let Some(noun) = self.noun_before(index - 1) else {
+                index += 1;
+                continue;
+            };
+            let listed = self.noun_listed_before(index - 1, noun.len());
+            let mut subject: Vec<&str> = vec![".", "the"];
+            if let Some(first) = &listed {
+                subject.extend(first.iter().map(String::as_str));
+                subject.extend(["and", "the"]);
+            }
+            subject.extend(noun.iter().map(String::as_str));
+            let one = ["should", "must", "shall", "needs", "has", "gets", "ends"];
+            let several = ["need", "have", "end"];
+            let told = ["is", "are", "was", "were"].contains(&next.as_str());
+            let plural = matches!(next.as_str(), "go" | "belong" | "move" | "stay" | "hang" | "come");
+            let said_of_several = plural || several.contains(&next.as_str());
+            if said_of_several && listed.is_some() {
+                self.say(index - 1, index + 1, &subject);
+            } else if said_of_several {
+                self.say(index - 1, index + 1, &[".", "they"]);
+            } else if listed.is_none() && is_going(&next)
+                || one.contains(&next.as_str())
+                || told && self.at(index + 2) == "to"
+            {
+                self.say(index - 1, index + 1, &subject);
+            } else if told && self.at(closes) == "," && closes - index <= LONGEST_ASIDE {
+                self.say(index - 1, closes + 1, &[]);
+            } else if ["you", "we", "i"].contains(&next.as_str()) {
+                self.order_of_which(index, &noun);
+            }
+            index += 1;
+        }
+    }
+
+    /// The noun joined by "and" to the one that ends before a place.
+    fn noun_listed_before(&self, end: usize, length: usize) -> Option<Vec<String>> {
+        let mut at = end.checked_sub(length + 1)?;
+        if is_determiner(self.at(at)) {
+            at = at.checked_sub(1)?;
+        }
+        if self.at(at) == "and" { self.noun_before(at) } else { None }
+    }
+
+    /// "the bread, which you also slice": an order after all.
+    fn order_of_which(&mut self, index: usize, noun: &[String]) {
+        let mut at = index + 2;
+        while ["also", "should", "must", "then", "need", "to", "will", "have"].contains(&self.at(at)) {
+            at += 1;
+        }
+        let verb = self.at(at).to_owned();
+        if self.is_mark(at + 1) && !self.lexicon.verbs(&verb).is_empty() {
+            let mut order: Vec<&str> = vec!["and", verb.as_str(), "the"];
+            order.extend(noun.iter().map(String::as_str));
+            self.say(index, at + 1, &order);
+        }
+    }
+
+    /// "…, since it is rotten, …": why is no order.
+    fn reasons(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let why = self.at(index) == ","
+                && ["since", "because", "as"].contains(&self.at(index + 1))
+                && ["it", "its", "they", "theyre", "that", "thats", "he", "she", "i", "im", "we"]
+                    .contains(&self.at(index + 2));
+            let closes = self.next_mark(index + 1, &[",", "."]);
+            if why && self.at(closes) == "," && closes - index <= LONGEST_ASIDE + 2 {
+                let goes_on = super::syntax::preposition(&[self.at(closes + 1)]).is_some();
+                self.say(index, closes + usize::from(goes_on), &[]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "…; so does the pillow", "…, as does the lettuce", "…; the keys and the card too": what was said before holds
+    /// for them as well.
+    fn same_of_others(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let does =
+                ["does", "do", "should", "must", "will", "is", "are", "can"].contains(&self.at(index + 1));
+            let after_mark =
+                self.is_mark(index - 1) || self.at(index - 1) == "and" && self.is_mark(index.wrapping_sub(2));
+            if after_mark
+                && ["so", "as"].contains(&self.at(index))
+                && does
+                && is_determiner(self.at(index + 2))
+            {
+                self.say(index, index + 2, &[]);
+                self.join_before(index);
+            } else if self.at(index - 1) == "." && is_determiner(self.at(index)) {
+                let end = self.next_mark(index, &[",", "."]);
+                let too = if self.at(end - 1) == "too" {
+                    1
+                } else {
+                    2 * usize::from(self.starts(end.saturating_sub(2), &["as", "well"]))
+                };
+                let plain = (index..end.saturating_sub(too)).all(|at| {
+                    let word = self.at(at);
+                    !is_going(word) && !SHALL.contains(&word) && super::syntax::preposition(&[word]).is_none()
+                });
+                if too > 0 && plain && end - index <= LONGEST_ASIDE {
+                    self.say(end - too, end, &[]);
+                    self.join_before(index);
+                }
+            }
+            index += 1;
+        }
+    }
+
+    /// Makes the end of a sentence before a place a comma.
+    fn join_before(&mut self, index: usize) {
+        let at = if self.at(index - 1) == "and" { index.saturating_sub(2) } else { index - 1 };
+        if self.at(at) == "." {
+            self.say(at, at + 1, &[","]);
+        }
+    }
+
+    /// "the valuables (the watch and the keys) go in the safe", "the glasses, namely the cup and the mug, go …": no
+    /// mark between a subject and its verb.
+    fn named_members(&mut self) {
+        let mut named = false;
+        let mut dashes = 0;
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let namely = if self.starts(index, &["that", "is"])
+                && is_determiner(self.at(index + 2))
+                && index > 0
+                && self.at(index - 1) == ","
+            {
+                2
+            } else {
+                usize::from(index > 0 && ["namely", "ie"].contains(&self.at(index)))
+            };
+            if namely > 0 {
+                // What is named is all that is meant: "the dishes, namely the pan and the pot, …" is no plate.
+                let comma = usize::from(self.at(index + namely) == ",");
+                let class = (index.saturating_sub(6)..index.saturating_sub(1))
+                    .rev()
+                    .take_while(|&at| !self.is_mark(at))
+                    .find(|&at| {
+                        is_determiner(self.at(at)) || ["anything", "everything"].contains(&self.at(at))
+                    });
+                let from = class.filter(|_| self.at(index - 1) == ",").unwrap_or(index);
+                self.say(from, index + namely + comma, &[]);
+                index = from;
+                named = true;
+            }
+            let mark = self.at(index).to_owned();
+            let typed = self.tokens.get(index).map_or("", |token| token.typed.as_str());
+            let dash = mark == "," && ["-", "\u{2013}", "\u{2014}"].contains(&typed);
+            let closing = mark == "," && (typed == ")" || dash && dashes % 2 == 1 || named);
+            dashes += usize::from(dash);
+            let next = self.at(index + 1);
+            if closing && (is_going(next) || SHALL.contains(&next)) {
+                self.say(index, index + 1, &[]);
+                named = false;
+            }
+            if mark == "." {
+                (named, dashes) = (false, 0);
+            }
+            index += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::offline::text::tokens;
+
+    fn plain(text: &str) -> String {
+        let lexicon = Lexicon::embedded().unwrap();
+        let words: Vec<String> =
+            rewritten(tokens(text), &lexicon).into_iter().map(|token| token.text).collect();
+        words.join(" ")
+    }
+
+    #[test]
+    fn subordinate_clauses_become_main_ones() {
+        for (said, meant) in [
+            (
+                "put the egg in the bowl, which goes in the fridge",
+                "put the egg in the bowl . the bowl goes in the fridge",
+            ),
+            ("put the paper, which is old, in the bin", "put the paper in the bin"),
+            ("put the egg, since it is off, in the bin", "put the egg in the bin"),
+            ("neither the stove nor the tap should be on", "the stove and the tap should not be on"),
+            ("robots wash the fork, another the spoon", "robots wash the fork , the spoon"),
+            ("the book goes on the bed; so does the pillow", "the book goes on the bed , the pillow"),
+            ("put all but the fork away", "put all except the fork away"),
+            (
+                "valuables - the watch and the keys - go in the safe",
+                "valuables , the watch and the keys go in the safe",
+            ),
+            (
+                "cut the bread next to the apple, which you also slice",
+                "cut the bread next to the apple , and slice the apple",
+            ),
+        ] {
+            assert_eq!(plain(said), meant);
+        }
+    }
+
+    #[test]
+    fn what_is_plain_already_stays_as_it_is() {
+        for said in
+            ["put the mug on the table , and the other on the desk", "wash the fork , which is on the desk"]
+        {
+            assert_eq!(plain(said), said);
+        }
+    }
+}
