@@ -410,7 +410,7 @@ impl Encoder<'_> {
         let same = |fact: &&FactId| self.variable(**fact) == variable;
         let known = condition.iter().find(same).or_else(|| precondition.iter().find(same));
         match known {
-            Some(&known) if known != value => return,
+            Some(&known) if known != value => {}
             Some(_) => happens(condition.to_vec(), none),
             None => {
                 let mut condition = condition.to_vec();
