@@ -446,64 +446,11 @@ impl<'a> Parser<'a> {
             || ahead.aside_state_follows()
             || ahead.complements_follow()
     }
-
-    /// Whether a state is told here: "is clean", "sliced".
-    pub(super) fn state_told(&self) -> bool {
-        self.peek().is_some_and(|word| {
-            ["is", "are", "stays", "stay"].contains(&word)
-                || preposition(&[word]).is_none() && self.lexicon.adjective(&[word]).is_some()
-        })
-    }
-
-    /// Whether it is said here where something goes.
-    fn goal_follows(&self) -> bool {
-        preposition(&self.rest()).is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
-    }
-
-    /// Whether a state is put in and a place follows: ", closed, on the table".
-    fn aside_state_follows(&self) -> bool {
-        self.peek() == Some(",") && self.word_at(2) == Some(",") && {
-            self.ahead(1).state_told() && self.ahead(3).goal_follows()
-        }
-    }
-
-    /// Whether another thing is told here as it shall be, the verb understood: "the mug should be in the sink, the
-    /// bread sliced, …".
-    fn another_wish_follows(&self, clause: &Clause<'a>, start: usize) -> bool {
-        const SHALL: [&str; 5] = ["should", "must", "shall", "needs", "need"];
-        let said = self.words.get(start..self.position).unwrap_or_default();
-        let wished = said.iter().any(|word| SHALL.contains(&word.as_str()));
-        let told = clause.verbs.is_empty() && !clause.complement.is_empty();
-        let mut joined = self.ahead(0);
-        joined.skip_joins();
-        let ahead = self.ahead_after_things();
-        let things = ahead.position > joined.position;
-        let state = ahead.state_told();
-        things && (wished && self.is_complete(clause) && state || told && (state || ahead.goal_follows()))
-    }
-
-    /// Whether it is said here what something is beside.
-    fn near_follows(&self) -> bool {
-        preposition(&self.rest()).is_some_and(|(relation, _)| relation == Relation::Near)
-    }
-
-    /// Where the parser stands behind the things that come next.
-    fn ahead_after_things(&self) -> Parser<'a> {
-        let mut ahead = self.ahead(0);
-        ahead.skip_joins();
-        ahead.phrases(0);
-        ahead
-    }
-
-    fn complements_follow(&self) -> bool {
-        let ends =
-            self.word_at(1).is_none_or(|next| [".", ",", "and", "then", "when", "once"].contains(&next));
-        self.peek().is_some_and(|word| ["off", "on"].contains(&word) || word == "out" && ends)
-    }
 }
 
 mod argument;
 mod choice;
+mod follows;
 mod opening;
 mod place;
 mod shape;

@@ -1,0 +1,61 @@
+//! What follows: looks ahead that tell whether a clause goes on.
+
+use super::super::syntax::{Clause, Relation, preposition};
+use super::Parser;
+
+impl<'a> Parser<'a> {
+    /// Whether a state is told here: "is clean", "sliced".
+    pub(in crate::offline) fn state_told(&self) -> bool {
+        self.peek().is_some_and(|word| {
+            ["is", "are", "stays", "stay"].contains(&word)
+                || preposition(&[word]).is_none() && self.lexicon.adjective(&[word]).is_some()
+        })
+    }
+
+    /// Whether it is said here where something goes.
+    pub(super) fn goal_follows(&self) -> bool {
+        preposition(&self.rest()).is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To))
+    }
+
+    /// Whether a state is put in and a place follows: ", closed, on the table".
+    pub(super) fn aside_state_follows(&self) -> bool {
+        self.peek() == Some(",") && self.word_at(2) == Some(",") && {
+            self.ahead(1).state_told() && self.ahead(3).goal_follows()
+        }
+    }
+
+    /// Whether another thing is told here as it shall be, the verb understood: "the mug should be in the sink, the
+    /// bread sliced, …".
+    pub(super) fn another_wish_follows(&self, clause: &Clause<'a>, start: usize) -> bool {
+        const SHALL: [&str; 5] = ["should", "must", "shall", "needs", "need"];
+        let said = self.words.get(start..self.position).unwrap_or_default();
+        let wished = said.iter().any(|word| SHALL.contains(&word.as_str()));
+        let told = clause.verbs.is_empty() && !clause.complement.is_empty();
+        let mut joined = self.ahead(0);
+        joined.skip_joins();
+        let ahead = self.ahead_after_things();
+        let things = ahead.position > joined.position;
+        let state = ahead.state_told();
+        things && (wished && self.is_complete(clause) && state || told && (state || ahead.goal_follows()))
+    }
+
+    /// Whether it is said here what something is beside.
+    pub(super) fn near_follows(&self) -> bool {
+        preposition(&self.rest()).is_some_and(|(relation, _)| relation == Relation::Near)
+    }
+
+    /// Where the parser stands behind the things that come next.
+    pub(super) fn ahead_after_things(&self) -> Parser<'a> {
+        let mut ahead = self.ahead(0);
+        ahead.skip_joins();
+        ahead.phrases(0);
+        ahead
+    }
+
+    /// Whether what completes a verb stands here: "off", "out".
+    pub(super) fn complements_follow(&self) -> bool {
+        let ends =
+            self.word_at(1).is_none_or(|next| [".", ",", "and", "then", "when", "once"].contains(&next));
+        self.peek().is_some_and(|word| ["off", "on"].contains(&word) || word == "out" && ends)
+    }
+}
