@@ -173,8 +173,10 @@ impl Arbiter {
 
     /// Settles the requests whose time has come.
     fn settle_due(&mut self, now: Tick) {
-        let due: Vec<_> = self.under_way.extract_if(.., |_, (at, _)| *at <= now).collect();
-        for (agent, (_, request)) in due {
+        let due = self.under_way.iter().filter(|(_, (at, _))| *at <= now);
+        let due: Vec<AgentId> = due.map(|(agent, _)| *agent).collect();
+        for agent in due {
+            let Some((_, request)) = self.under_way.remove(&agent) else { continue };
             let still = self.events.still_at();
             if self.events.is_due(agent) && still > now {
                 // Others have acted meanwhile: it is held on.
