@@ -357,6 +357,29 @@ impl Task {
         }
     }
 
+    /// The state that operators lead to, one after the other, which all apply.
+    pub(crate) fn after(&self, from: &[u64], operators: &[OperatorId]) -> Vec<u64> {
+        let (mut state, mut next) = (from.to_vec(), from.to_vec());
+        for &operator in operators {
+            self.apply(&state, operator, &mut next);
+            std::mem::swap(&mut state, &mut next);
+        }
+        state
+    }
+
+    /// Whether operators can be carried out one after the other from a state, and lead to the goal.
+    pub(crate) fn leads_to(&self, from: &[u64], operators: &[OperatorId], goal: &[FactId]) -> bool {
+        let (mut state, mut next) = (from.to_vec(), from.to_vec());
+        for &operator in operators {
+            if !self.applicable(&state, operator) {
+                return false;
+            }
+            self.apply(&state, operator, &mut next);
+            std::mem::swap(&mut state, &mut next);
+        }
+        goal.iter().all(|&fact| self.holds(&state, fact))
+    }
+
     /// The operators that carry out a plan from the initial state; `None` if some step has none that applies.
     pub fn trace(&self, plan: &Plan) -> Option<Vec<OperatorId>> {
         let object = |name: &Name| self.names.objects.iter().position(|n| n == name).map(|at| at as u32);

@@ -124,20 +124,13 @@ impl<'a> Auction<'a> {
             given.ends = best.ends[..kept].to_vec();
             given.plan = best.plan[..best.ends[kept - 1]].to_vec();
         }
-        let (mut state, mut next) = (self.task.init.clone(), self.task.init.clone());
-        for &operator in &given.plan {
-            self.task.apply(&state, operator, &mut next);
-            std::mem::swap(&mut state, &mut next);
-        }
+        let mut state = self.task.after(&self.task.init, &given.plan);
         for at in kept..goals.len() {
             let (price, more) = self.cheapest(&state, &goals[..=at], &given.plan)?;
             if most.is_some_and(|most| price > most) {
                 return None;
             }
-            for &operator in &more {
-                self.task.apply(&state, operator, &mut next);
-                std::mem::swap(&mut state, &mut next);
-            }
+            state = self.task.after(&state, &more);
             given.price = price;
             given.plan.extend(more);
             given.ends.push(given.plan.len());

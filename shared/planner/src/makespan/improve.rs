@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::auction::Auction;
 use super::sat::{Found, Fuel};
-use super::windows::{Windows, leads_to};
+use super::windows::Windows;
 use super::{Answer, Asked, Makespan, MakespanLimits, Schedule, Scheduler};
 use crate::search::{Limits, eliminate, spread};
 use crate::task::OperatorId;
@@ -37,7 +37,7 @@ impl Scheduler<'_> {
         limits: &MakespanLimits,
         cancel: &AtomicBool,
     ) -> Makespan {
-        if !self.is_plain() || !leads_to(self.task, &self.task.init, plan, &self.task.goal) {
+        if !self.is_plain() || !self.task.leads_to(&self.task.init, plan, &self.task.goal) {
             return self.shortest(from, Some(makespan), limits, cancel);
         }
         let mut bound = from.max(self.depth());

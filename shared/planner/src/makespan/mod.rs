@@ -32,7 +32,6 @@ use model::{Lit, Model};
 use order::Order;
 use sat::{Found, Fuel, Question, is_true};
 use together::Together;
-use windows::leads_to;
 use work::Work;
 
 /// An operator in a step makes at least so many literals in a formula.
@@ -287,7 +286,7 @@ impl<'a> Scheduler<'a> {
     /// derived facts may make it wrong.
     fn checked(&self, steps: Vec<Vec<OperatorId>>) -> Answer {
         let plan: Vec<OperatorId> = steps.iter().flatten().copied().collect();
-        if !leads_to(self.task, &self.task.init, &plan, &self.task.goal) {
+        if !self.task.leads_to(&self.task.init, &plan, &self.task.goal) {
             return Answer::Unknown;
         }
         let mut once: Vec<u32> = plan.iter().map(|o| o.0).collect();

@@ -145,7 +145,7 @@ impl<'a> Windows<'a> {
         let middle = steps.iter().flatten().copied();
         let plan: Vec<OperatorId> = window.before.into_iter().chain(middle).chain(window.after).collect();
         let task = self.scheduler.task;
-        if !leads_to(task, &task.init, &plan, &task.goal) {
+        if !task.leads_to(&task.init, &plan, &task.goal) {
             return false;
         }
         let plan = crate::search::eliminate(task, plan);
@@ -234,17 +234,4 @@ fn needed(task: &Task, operators: &[OperatorId]) -> Vec<FactId> {
         needed.extend(task.preconditions(operator));
     }
     needed.into_iter().collect()
-}
-
-/// Whether the plan can be carried out from a state and leads to the goal.
-pub(super) fn leads_to(task: &Task, state: &[u64], plan: &[OperatorId], goal: &[FactId]) -> bool {
-    let (mut state, mut next) = (state.to_vec(), state.to_vec());
-    for &operator in plan {
-        if !task.applicable(&state, operator) {
-            return false;
-        }
-        task.apply(&state, operator, &mut next);
-        std::mem::swap(&mut state, &mut next);
-    }
-    goal.iter().all(|&fact| task.holds(&state, fact))
 }

@@ -117,8 +117,9 @@ impl<'a, 't> Windows<'a, 't> {
         let mut best = plan;
         while self.work > 0 {
             let plan = self.pass(&best, length, meter);
-            debug_assert!(self.leads_to_the_goal(&plan), "the rest of a plan needs more than was said");
-            if self.cost(&plan) >= self.cost(&best) || !self.leads_to_the_goal(&plan) {
+            let is_plan = self.task.leads_to(&self.task.init, &plan, &self.task.goal);
+            debug_assert!(is_plan, "the rest of a plan needs more than was said");
+            if self.cost(&plan) >= self.cost(&best) || !is_plan {
                 break;
             }
             best = plan;
@@ -129,16 +130,6 @@ impl<'a, 't> Windows<'a, 't> {
     /// What counts: the cost, then the length.
     fn cost(&self, plan: &[OperatorId]) -> (u64, usize) {
         (cost(self.task, Costs::Real, plan), plan.len())
-    }
-
-    fn leads_to_the_goal(&self, plan: &[OperatorId]) -> bool {
-        let (mut state, mut next) = (self.task.init.clone(), self.task.init.clone());
-        plan.iter().all(|&operator| {
-            let applicable = self.task.applicable(&state, operator);
-            self.task.apply(&state, operator, &mut next);
-            std::mem::swap(&mut state, &mut next);
-            applicable
-        }) && self.task.is_goal(&state)
     }
 
     /// Goes over the windows of so many steps.
