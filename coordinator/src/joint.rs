@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use lamma_pddl::ast::{Condition, GroundAtom, Init};
 use lamma_planner::interpreter::{Interpreter, WorldState};
-use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder};
+use lamma_planner::partial_order::{PartialOrder, deorder};
 use lamma_planner::{Countdown, Limits, MakespanLimits, Outcome, Plan, SearchOptions, Task};
 use lamma_protocol::StepIndex;
 
@@ -157,13 +157,7 @@ fn start(input: &JointInput) -> WorldState {
 }
 
 fn explain(input: &JointInput, interpreter: &Interpreter, plan: &Plan) -> Result<PartialOrder, String> {
-    let mut steps = Vec::with_capacity(plan.acts.len());
-    for act in &plan.acts {
-        let agent = act.args.first().and_then(|name| input.team.member(name));
-        let agent = agent.ok_or_else(|| format!("nobody of the team does {act}"))?;
-        let action = interpreter.instantiate(act).map_err(|e| e.to_string())?;
-        steps.push(TeamStep { agent, action: Arc::new(action) });
-    }
+    let steps = input.team.steps(interpreter, plan)?;
     let goal = interpreter.ground_condition(&input.goal).map_err(|e| e.to_string())?;
     deorder(interpreter, &start(input), steps, &goal, &[])
         .map_err(|(i, violation)| format!("the plan found fails at step {i}: {violation}"))

@@ -5,7 +5,6 @@
 //! Each robot then plans its segments itself, in its own domain.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use lamma_pddl::Name;
@@ -13,7 +12,7 @@ use lamma_pddl::ast::{Atom, Condition, GroundAtom, Term};
 use lamma_planner::Limits;
 use lamma_planner::Outcome;
 use lamma_planner::interpreter::Interpreter;
-use lamma_planner::partial_order::{PartialOrder, TeamStep, deorder};
+use lamma_planner::partial_order::{PartialOrder, deorder};
 use lamma_planner::{GroundAct, Literal, Plan};
 
 use crate::combine::world_state;
@@ -59,13 +58,7 @@ pub fn segments(
     goal: &Condition,
     plan: &Plan,
 ) -> Result<Vec<Segment>, String> {
-    let mut steps = Vec::with_capacity(plan.acts.len());
-    for act in &plan.acts {
-        let agent = act.args.first().and_then(|name| team.member(name));
-        let agent = agent.ok_or_else(|| format!("nobody of the team does {act}"))?;
-        let action = interpreter.instantiate(act).map_err(|e| e.to_string())?;
-        steps.push(TeamStep { agent, action: Arc::new(action) });
-    }
+    let steps = team.steps(interpreter, plan)?;
     let ground = interpreter.ground_condition(goal).map_err(|e| e.to_string())?;
     let order = deorder(interpreter, &world_state(facts), steps, &ground, &[])
         .map_err(|(i, violation)| format!("the team's plan fails at step {i}: {violation}"))?;

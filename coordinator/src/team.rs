@@ -6,7 +6,9 @@ use std::sync::Arc;
 use lamma_pddl::Name;
 use lamma_pddl::ast::{Atom, Condition, Domain, Effect, GroundAtom, Init, Signature, Term, TypedName};
 use lamma_planner::interpreter::{InterpretError, Interpreter};
+use lamma_planner::partial_order::TeamStep;
 use lamma_planner::travel::Travel;
+use lamma_planner::{GroundAct, Plan};
 
 /// A robot of the team.
 #[derive(Clone, Debug)]
@@ -68,6 +70,17 @@ impl Team {
     /// The index of the member with that name.
     pub fn member(&self, name: &Name) -> Option<usize> {
         self.members.iter().position(|m| m.name == *name)
+    }
+
+    /// A plan of the team as steps, each with who does it: its first argument.
+    pub fn steps(&self, interpreter: &Interpreter, plan: &Plan) -> Result<Vec<TeamStep>, String> {
+        let step = |act: &GroundAct| {
+            let agent = act.args.first().and_then(|name| self.member(name));
+            let agent = agent.ok_or_else(|| format!("nobody of the team does {act}"))?;
+            let action = interpreter.instantiate(act).map_err(|e| e.to_string())?;
+            Ok(TeamStep { agent, action: Arc::new(action) })
+        };
+        plan.acts.iter().map(step).collect()
     }
 
     /// Whether the atom speaks of a member other than `me` (or of any, for `None`).
