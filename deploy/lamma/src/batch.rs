@@ -29,7 +29,7 @@ pub fn each<T: Send>(
     let next = Mutex::new(0usize);
     let done: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::new());
     let worker = || {
-        loop {
+        while !interrupted.load(Ordering::Acquire) {
             let index = {
                 let mut next = next.lock().unwrap_or_else(|e| e.into_inner());
                 let index = *next;

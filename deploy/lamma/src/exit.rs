@@ -17,6 +17,15 @@ pub const BAD_INPUT: u8 = 20;
 /// A fault in the software or the host.
 pub const FAULT: u8 = 30;
 
+/// The code of a benchmark: of whether a task could not be run or its plan was wrong, and whether the user ended it.
+pub fn of_batch(broken: bool, interrupted: bool) -> u8 {
+    match broken {
+        true => FAULT,
+        false if interrupted => GAVE_UP,
+        false => SUCCESS,
+    }
+}
+
 /// The code of an outcome.
 pub fn of(outcome: OutcomeKind) -> u8 {
     match outcome {

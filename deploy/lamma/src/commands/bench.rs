@@ -79,11 +79,8 @@ pub fn bench(args: &BenchArgs) -> Result<u8, Failure> {
     }
     report(args, &suite, &runs, start.elapsed().as_secs_f64())?;
     let broken = |f: &Finished| f.result.outcome == OutcomeKind::Error;
-    Ok(match runs.iter().flat_map(|(_, f): &(_, Vec<Finished>)| f).any(broken) {
-        true => exit::FAULT,
-        false if interrupted => exit::GAVE_UP,
-        false => exit::SUCCESS,
-    })
+    let broken = runs.iter().flat_map(|(_, f): &(_, Vec<Finished>)| f).any(broken);
+    Ok(exit::of_batch(broken, interrupted))
 }
 
 fn run_all(args: &BenchArgs, variant: &Variant, folder: &Path, suite: &Suite) -> Batch<Finished> {

@@ -17,16 +17,27 @@ const ENDING: [i32; 3] = [SIGINT, SIGTERM, SIGHUP];
 /// These signals of this process, for as long as it lives.
 pub(super) struct Signals {
     pipe: UnixStream,
-    handlers: Vec<SigId>,
+    handlers: Handlers,
+}
+
+/// Handlers of signals that are taken back when this is dropped.
+struct Handlers(Vec<SigId>);
+
+impl Drop for Handlers {
+    fn drop(&mut self) {
+        for handler in self.0.drain(..) {
+            unregister(handler);
+        }
+    }
 }
 
 impl Signals {
     pub(super) fn new() -> io::Result<Signals> {
         let (pipe, write) = UnixStream::pair()?;
         pipe.set_nonblocking(true)?;
-        let mut signals = Signals { pipe, handlers: Vec::new() };
+        let mut signals = Signals { pipe, handlers: Handlers(Vec::new()) };
         for signal in ENDING {
-            signals.handlers.push(pipe::register(signal, write.try_clone()?)?);
+            signals.handlers.0.push(pipe::register(signal, write.try_clone()?)?);
         }
         Ok(signals)
     }
@@ -43,33 +54,18 @@ impl AsFd for Signals {
     }
 }
 
-impl Drop for Signals {
-    fn drop(&mut self) {
-        for handler in self.handlers.drain(..) {
-            unregister(handler);
-        }
-    }
-}
-
 /// These signals of this process, noted in a flag for as long as this lives: for what is made of many runs, each of
 /// which sees only the signals of its own time.
-pub struct Interrupts(Vec<SigId>);
+pub struct Interrupts {
+    _handlers: Handlers,
+}
 
 impl Interrupts {
     /// Sets the flag when one comes.
     pub fn noted_in(flag: &Arc<AtomicBool>) -> Interrupts {
         // It fails only for signals that cannot be handled, which these are not.
-        Interrupts(
-            ENDING.iter().filter_map(|signal| flag::register(*signal, Arc::clone(flag)).ok()).collect(),
-        )
-    }
-}
-
-impl Drop for Interrupts {
-    fn drop(&mut self) {
-        for handler in self.0.drain(..) {
-            unregister(handler);
-        }
+        let handler = |signal: &i32| flag::register(*signal, Arc::clone(flag)).ok();
+        Interrupts { _handlers: Handlers(ENDING.iter().filter_map(handler).collect()) }
     }
 }
 

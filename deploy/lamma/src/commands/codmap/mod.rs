@@ -71,11 +71,7 @@ pub fn bench(args: &BenchArgs, folder: &Path) -> Result<u8, Failure> {
     set.tasks.retain(|_| index.next().is_some_and(|i| done.contains(&i)));
     report(args, &set, &finished, seconds)?;
     let broken = |f: &Finished| f.result.outcome == OutcomeKind::Error || f.invalid.is_some();
-    Ok(match finished.iter().any(broken) {
-        true => exit::FAULT,
-        false if batch.interrupted => exit::GAVE_UP,
-        false => exit::SUCCESS,
-    })
+    Ok(exit::of_batch(finished.iter().any(broken), batch.interrupted))
 }
 
 fn one(args: &BenchArgs, runs: &Path, task: &TaskFolder) -> Finished {
