@@ -7,6 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Bound;
 use std::path::Path;
+use std::sync::OnceLock;
 
 use lamma_domains::goal::PropertyValue;
 use serde::Deserialize;
@@ -182,10 +183,9 @@ pub struct Lexicon {
     likes: BTreeMap<String, Vec<String>>,
     vocabulary: BTreeSet<String>,
     trigger_words: TriggerWords,
-    /// The vocabulary that a strange word may be a slip for.
-    spelling: Spelling,
-    /// The verbs of one word.
-    bare_verbs: Spelling,
+    /// The vocabulary that a strange word may be a slip for, and the verbs of one word, once somebody has asked.
+    spelling: OnceLock<Spelling>,
+    bare_verbs: OnceLock<Spelling>,
 }
 
 impl Lexicon {
@@ -258,17 +258,8 @@ impl Lexicon {
             usage.triggers = usage.when.iter().map(|when| self.trigger_words.trigger(when)).collect();
             self.uses.push(usage);
         }
-        self.index_spelling();
+        (self.spelling, self.bare_verbs) = Default::default();
         Ok(())
-    }
-
-    /// What spelling is repaired with, after the words have changed.
-    fn index_spelling(&mut self) {
-        let misspellable = |known: &&str| !self.is_small("real", &[known]);
-        self.spelling = Spelling::of(self.vocabulary.iter().map(String::as_str).filter(misspellable));
-        let bare =
-            |(_, verbs): &(&String, &Vec<(Vec<String>, usize)>)| verbs.iter().any(|(p, _)| p.is_empty());
-        self.bare_verbs = Spelling::of(self.verb_index.iter().filter(bare).map(|(base, _)| base.as_str()));
     }
 
     /// Whether a type is known by its own name.
@@ -351,7 +342,12 @@ impl Lexicon {
     /// The verb of one word that is one letter away from a word: the one of the same first letter before others.
     pub fn near_verb(&self, word: &str) -> Option<(&str, Vec<&Verb>)> {
         let first = word.chars().next();
-        let found = self.bare_verbs.one_edit_away(word);
+        let bare_verbs = self.bare_verbs.get_or_init(|| {
+            let verbs = self.verb_index.iter();
+            let bare = verbs.filter(|(_, verbs)| verbs.iter().any(|(particles, _)| particles.is_empty()));
+            Spelling::of(bare.map(|(base, _)| base.as_str()))
+        });
+        let found = bare_verbs.one_edit_away(word);
         let best = found.min_by_key(|base| (base.chars().next() != first, base.len()))?;
         let known = self.verb_index.get(best).map(Vec::as_slice).unwrap_or_default();
         let bare = known.iter().filter(|(particles, _)| particles.is_empty());
@@ -435,7 +431,10 @@ impl Lexicon {
 
     /// The words that a strange one may be a slip for.
     pub fn spelling(&self) -> &Spelling {
-        &self.spelling
+        self.spelling.get_or_init(|| {
+            let misspellable = |known: &&str| !self.is_small("real", &[known]);
+            Spelling::of(self.vocabulary.iter().map(String::as_str).filter(misspellable))
+        })
     }
 
     /// The words it knows.
