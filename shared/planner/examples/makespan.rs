@@ -108,7 +108,7 @@ fn one(domain: &Path, problem: &Path, work: u64) -> Result<Row, String> {
     // As the coordinator does it.
     let operators = task.operators.len() as u64;
     let length = operators * u64::from(first.unwrap_or(0)).pow(2) / 500;
-    let more = (operators * 1_000).max(length.saturating_mul(length)).clamp(300_000, 25_000_000);
+    let more = (operators * 1_000).max(length.saturating_mul(length)).clamp(3_000_000, 25_000_000);
     let size = if work > 0 { 60_000_000 } else { 1_000_000.max(more / 4) };
     let work = if work > 0 { work } else { 500_000 + more };
     let limits = MakespanLimits { conflicts: u64::MAX, size, work, time: None };

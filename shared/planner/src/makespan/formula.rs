@@ -52,6 +52,13 @@ pub(super) fn formula(
         derivations(&mut clauses, model, layer, own);
         exclusive_values(&mut clauses, model, layer, own);
     }
+    // A plan whose windows are looked at may have come to its start by operators that no shortest schedule needs,
+    // and to facts that are apart without them.
+    if model.apart(&layers[0].lits).next().is_none() {
+        for (layer, own) in layers.iter().zip(&variables) {
+            model.apart(&layer.lits).for_each(|(a, b)| clauses.clause([!own.lits[a], !own.lits[b]]));
+        }
+    }
     // The first layer's literals are those that hold at the start.
     variables[0].lits.iter().for_each(|&lit| clauses.clause([lit]));
     let mut last_done: Vec<(usize, Option<Bool>)> = together.in_vain(goal).map(|set| (set, None)).collect();

@@ -156,10 +156,12 @@ impl<'a> Scheduler<'a> {
         }
         let relevant = stand_in::needed(task, &model);
         let plain = model.events.is_empty() && model.derivations.is_empty() && !ordered;
-        let depth = match plain && !task.has_numbers() {
-            true => pairs::raise(&model, &relevant, &mut reach, PAIRS),
-            false => reach.goal(&model.goal),
-        };
+        let mut depth = reach.goal(&model.goal);
+        if plain && !task.has_numbers() {
+            let raised = pairs::raise(&model, &relevant, &mut reach, PAIRS);
+            depth = raised.depth;
+            model.put_apart(&raised.apart);
+        }
         // Without conditional effects, what an agent may do to a literal is one variable anyway.
         let together =
             if model.events.is_empty() { Together::default() } else { Together::new(task, &model) };

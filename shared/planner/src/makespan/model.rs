@@ -59,6 +59,9 @@ pub(super) struct Model {
     pub initially: Vec<bool>,
     /// The literals of each variable with more than two values, at most one of which holds, and of other such sets.
     pub groups: Vec<Vec<Lit>>,
+    /// For each literal, others that never hold with it, beyond the values of its variable; each pair once. No rows if
+    /// nothing is known.
+    apart: Csr<Lit>,
     facts: usize,
     variable_of: Vec<u32>,
     /// Whether each fact is of a variable with more than two values.
@@ -83,6 +86,7 @@ impl Model {
             goal: Vec::new(),
             initially: vec![false; 2 * facts],
             groups: Vec::new(),
+            apart: Csr::default(),
             facts,
             variable_of: task.facts.iter().map(|fact| fact.variable).collect(),
             many: task.facts.iter().map(|f| task.variables[f.variable as usize].size > 2).collect(),
@@ -151,6 +155,20 @@ impl Model {
     pub fn excludes(&self, a: Lit, b: Lit) -> bool {
         let variable = |lit: Lit| self.variable_of.get(lit.index());
         a != b && variable(a).is_some() && variable(a) == variable(b)
+    }
+
+    /// Notes literals that never hold together.
+    pub fn put_apart(&mut self, pairs: &[(Lit, Lit)]) {
+        self.apart = Csr::from_pairs(self.literals_count(), pairs.iter().map(|&(a, b)| (a.0, b)));
+    }
+
+    /// The pairs of these literals, by position, that never hold together, beyond the values of one variable; `lits` in order.
+    pub fn apart<'a>(&'a self, lits: &'a [Lit]) -> impl Iterator<Item = (usize, usize)> + 'a {
+        let known = lits.iter().enumerate().filter(|(_, lit)| lit.index() < self.apart.len());
+        known.flat_map(move |(at, lit)| {
+            let others = self.apart.row(lit.index()).iter();
+            others.filter_map(move |other| Some((at, lits.binary_search(other).ok()?)))
+        })
     }
 
     /// The fact that the literal is about.

@@ -75,35 +75,48 @@ struct Graph<'a> {
     since: Vec<u32>,
 }
 
+/// What the graph says.
+pub(super) struct Raised {
+    /// The first layer in which all of the goal may hold.
+    pub depth: u32,
+    /// Facts that never hold together.
+    pub apart: Vec<(Lit, Lit)>,
+}
+
 /// Raises the first layers in `reach` to those of the planning graph, and says in which layer all of the goal may
 /// hold. Looks no further when `work` (words of bits looked at) is used up; what is not reached by then comes later.
 /// For tasks without conditional effects and derived facts.
-pub(super) fn raise(model: &Model, relevant: &[bool], reach: &mut Reach, mut work: u64) -> u32 {
+pub(super) fn raise(model: &Model, relevant: &[bool], reach: &mut Reach, mut work: u64) -> Raised {
     let mut depth = reach.goal(&model.goal);
-    let Some(mut graph) = Graph::new(model, relevant, reach, work) else { return depth };
-    let mut layer = 0;
-    let complete = loop {
+    let Some(mut graph) = Graph::new(model, relevant, reach, work) else {
+        return Raised { depth, apart: Vec::new() };
+    };
+    let (mut layer, mut complete) = (0, None);
+    // From this layer on nothing is known.
+    let unknown = loop {
         graph.act(layer, reach);
-        if graph.has(&model.goal) {
-            break true;
+        if complete.is_none() && graph.has(&model.goal) {
+            complete = Some(layer);
         }
-        let Some(grown) = graph.grow(&mut work) else { break false };
-        if !grown {
-            break false;
+        match graph.grow(&mut work) {
+            None => break layer + 1,
+            Some(false) => break NEVER,
+            Some(true) => {}
         }
         layer += 1;
         graph.note(layer);
     };
-    depth = depth.max(if complete { layer } else { layer + 1 });
+    depth = depth.max(complete.unwrap_or(layer + 1));
     for (at, &lit) in graph.lits.iter().enumerate() {
         let own = &mut reach.lits[lit.index()];
-        *own = (*own).max(graph.since[at].min(layer + 1));
+        *own = (*own).max(graph.since[at].min(unknown));
     }
     for (at, &operator) in graph.operators.iter().enumerate() {
         let own = &mut reach.operators[operator as usize];
-        *own = (*own).max(graph.first[at].min(layer + 1));
+        *own = (*own).max(graph.first[at].min(unknown));
     }
-    depth
+    let apart = if unknown == NEVER { graph.apart() } else { Vec::new() };
+    Raised { depth, apart }
 }
 
 impl<'a> Graph<'a> {
@@ -197,6 +210,16 @@ impl<'a> Graph<'a> {
                 }
             }
         }
+    }
+
+    /// The facts that never hold together, beyond the values of a variable.
+    fn apart(&self) -> Vec<(Lit, Lit)> {
+        let facts = self.lits.len();
+        let may_hold: Vec<usize> = (0..facts).filter(|&p| self.can.has(p, p)).collect();
+        let pairs =
+            may_hold.iter().enumerate().flat_map(|(at, &p)| may_hold[..at].iter().map(move |&q| (q, p)));
+        let apart = pairs.filter(|&(q, p)| !self.can.has(p, q) && !self.exclusive.has(p, q));
+        apart.map(|(q, p)| (self.lits[q], self.lits[p])).collect()
     }
 
     /// Notes the facts that are new in this layer.

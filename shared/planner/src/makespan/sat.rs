@@ -60,6 +60,11 @@ impl<'a> Fuel<'a> {
         result
     }
 
+    /// Whether no more than a few conflicts of the solver can be paid for.
+    pub fn is_for_a_few_conflicts(&self) -> bool {
+        self.is_empty() || self.work < LOOKS_PER_CONFLICT * A_FEW
+    }
+
     /// Whether nothing more can be done.
     pub fn is_empty(&self) -> bool {
         self.conflicts == 0 || self.work == 0 || self.stopped()
@@ -79,6 +84,9 @@ const LOOK: u32 = 256;
 
 /// How many assignments the solver propagates for a conflict, roughly.
 const LOOKS_PER_CONFLICT: u64 = 1_000;
+
+/// So many conflicts are not worth going on for.
+const A_FEW: u64 = 100;
 
 /// Literals that the formula of a window may have for each conflict that may be spent on it.
 const SIZE_PER_CONFLICT: u64 = 1_000;
