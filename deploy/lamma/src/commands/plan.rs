@@ -117,11 +117,7 @@ impl<'a> Work<'a> {
         }
         self.told().grounded(&grounded.warnings);
         if self.args.sas {
-            if grounded.has_numbers() {
-                return Err(Failure::bad_input("the format of --sas has no numbers, and this task reads some"));
-            }
-            say(write_sas(&grounded).trim_end());
-            return Ok(exit::SUCCESS);
+            return print_sas(&grounded);
         }
         let (outcome, optimal) = self.search(search, &task, &grounded)?;
         Ok(match outcome {
@@ -170,6 +166,14 @@ impl<'a> Work<'a> {
 /// Whether reading a file takes no time to speak of. A pipe may keep its reader waiting.
 fn is_short(path: &Path) -> bool {
     std::fs::metadata(path).is_ok_and(|metadata| metadata.is_file() && metadata.len() <= SHORT_FILE_BYTES)
+}
+
+fn print_sas(task: &Task) -> Result<u8, Failure> {
+    if task.has_numbers() {
+        return Err(Failure::bad_input("the format of --sas has no numbers, and this task reads some"));
+    }
+    say(write_sas(task).trim_end());
+    Ok(exit::SUCCESS)
 }
 
 /// The reason with the cause of each part, where there is a single one, or with the parts that exclude each other.
