@@ -1,7 +1,8 @@
 //! Holds a command that computes to its limits of time and memory, and lets Ctrl-C end it with what it has.
 //!
 //! A thread of its own looks at the clock, the resident memory and the signals, so that the limits hold
-//! wherever the work is: reading, grounding, searching, inside one long step.
+//! wherever the work is: reading, grounding, searching, inside one long step. Without limits it is started only for
+//! work that may have long steps.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -48,20 +49,47 @@ impl std::fmt::Display for Stop {
     }
 }
 
-/// Calls `stop` from a thread of its own when the allowance is used up or a signal comes; `stop` is to print what
-/// there is and to end the process.
-pub fn guard(allowance: Allowance, stop: impl FnOnce(Stop) + Send + 'static) -> Result<(), Failure> {
-    let signalled = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        signal_hook::flag::register(signal, Arc::clone(&signalled))
-            .map_err(|error| Failure::fault(format!("cannot handle signals: {error}")))?;
+/// Watches over the work.
+pub struct Guard {
+    allowance: Allowance,
+    signalled: Arc<AtomicBool>,
+    /// What to do at the end, until the thread has it.
+    stop: Option<Box<dyn FnOnce(Stop) + Send>>,
+}
+
+impl Guard {
+    /// Takes note of signals from now on; watches, if there is a limit. `stop` is to print what there is and to end the
+    /// process.
+    pub fn new(allowance: Allowance, stop: impl FnOnce(Stop) + Send + 'static) -> Result<Self, Failure> {
+        let signalled = Arc::new(AtomicBool::new(false));
+        for signal in [SIGINT, SIGTERM] {
+            signal_hook::flag::register(signal, Arc::clone(&signalled))
+                .map_err(|error| Failure::fault(format!("cannot handle signals: {error}")))?;
+        }
+        let mut guard = Guard { allowance, signalled, stop: Some(Box::new(stop)) };
+        if guard.allowance.deadline.is_some() || guard.allowance.memory_bytes.is_some() {
+            guard.watch()?;
+        }
+        Ok(guard)
     }
-    let watch = move || stop(wait(allowance, &signalled));
-    std::thread::Builder::new()
-        .name("guard".into())
-        .spawn(watch)
-        .map_err(|error| Failure::fault(format!("cannot start a thread: {error}")))?;
-    Ok(())
+
+    /// Calls `stop` from a thread of its own when the allowance is used up or a signal comes. To be called before work
+    /// that may take long without a look at [`Guard::signalled`]: a thread takes longer to start than a small task to
+    /// ground.
+    pub fn watch(&mut self) -> Result<(), Failure> {
+        let Some(stop) = self.stop.take() else { return Ok(()) };
+        let (allowance, signalled) = (self.allowance, Arc::clone(&self.signalled));
+        std::thread::Builder::new()
+            .name("guard".into())
+            .spawn(move || stop(wait(allowance, &signalled)))
+            .map_err(|error| Failure::fault(format!("cannot start a thread: {error}")))?;
+        Ok(())
+    }
+
+    /// Whether a signal came.
+    pub fn signalled(&self) -> &AtomicBool {
+        &self.signalled
+    }
 }
 
 /// Returns when the work has to end.

@@ -1,6 +1,7 @@
 //! Reports as text with carets, through `miette`.
 
 use std::fmt;
+use std::ops::Range;
 
 use miette::{
     GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
@@ -109,10 +110,15 @@ impl SourceCode for Source {
         context_before: usize,
         context_after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
-        let contents = self.text.read_span(span, context_before, context_after)?;
-        let (mut shown, mut column) = (*contents.span(), contents.column());
-        let mut data = contents.data();
-        let mut line = contents.line();
+        // `miette` looks at every byte from the first one on.
+        let near = self.lines_around(span, context_before, context_after);
+        let inside = SourceSpan::from((span.offset() - near.start, span.len()));
+        let contents = self.text[near.clone()].read_span(&inside, context_before, context_after)?;
+        let place = contents.span();
+        let mut shown = SourceSpan::from((near.start + place.offset(), place.len()));
+        let (mut data, mut column) = (contents.data(), contents.column());
+        let before = self.text[..near.start].bytes().filter(|byte| *byte == b'\n').count();
+        let mut line = before + contents.line();
         if data.len() > MAX_SNIPPET_BYTES {
             (shown, data) = self.window(span);
             let (line_from_1, column_from_1) = self.position(shown.offset());
@@ -124,6 +130,17 @@ impl SourceCode for Source {
 }
 
 impl Source {
+    /// The lines of `span` with so many before and after them, and one more.
+    fn lines_around(&self, span: &SourceSpan, before: usize, after: usize) -> Range<usize> {
+        let bytes = self.text.as_bytes();
+        let start = span.offset().min(bytes.len());
+        let end = (start + span.len()).min(bytes.len());
+        let newline = |(_, byte): &(usize, &u8)| **byte == b'\n';
+        let first = bytes[..start].iter().enumerate().rev().filter(newline).nth(before + 1);
+        let last = bytes[end..].iter().enumerate().filter(newline).nth(after + 1);
+        first.map_or(0, |(at, _)| at + 1)..last.map_or(bytes.len(), |(at, _)| end + at + 1)
+    }
+
     /// Some bytes around the start of `span`, within its line.
     fn window(&self, span: &SourceSpan) -> (SourceSpan, &[u8]) {
         let bytes = self.text.as_bytes();
@@ -139,5 +156,27 @@ impl Source {
         let end = (offset + span.len().min(MAX_SNIPPET_BYTES)).min(bytes.len());
         let to = boundary((end + WINDOW_BYTES).min(bytes.len()));
         (SourceSpan::from((from, to - from)), &bytes[from..to])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_snippet_is_the_one_that_reading_everything_gives() {
+        let text = "a\nbc\r\n\nd(\u{e9})\n\n\nef\n g";
+        let source = Source::new("x", text);
+        for start in 0..=text.len() {
+            for length in 0..=text.len() - start {
+                for (before, after) in [(0, 0), (1, 1), (2, 0)] {
+                    let span = SourceSpan::from((start, length));
+                    let whole = text.read_span(&span, before, after).expect("it is inside");
+                    let part = source.read_span(&span, before, after).expect("it is inside");
+                    assert_eq!((part.data(), part.span()), (whole.data(), whole.span()));
+                    assert_eq!((part.line(), part.column()), (whole.line(), whole.column()));
+                }
+            }
+        }
     }
 }

@@ -1,6 +1,8 @@
 //! The planner and the validator alone.
 
-use crate::tools::{Folder, output};
+use std::time::Duration;
+
+use crate::tools::{Folder, finish, output, signal, start};
 
 const DOMAIN: &str = "(define (domain ferry) (:requirements :strips :typing)
   (:types place car)
@@ -115,4 +117,24 @@ fn limits_end_a_search_without_a_claim() {
     assert_eq!(memory.status.code(), Some(11));
     let said = String::from_utf8_lossy(&memory.stderr).into_owned();
     assert!(said.contains("the memory limit is used up"), "{said}");
+}
+
+/// Without limits nobody but the search itself looks for the signal.
+#[test]
+fn an_interrupted_search_says_so() {
+    let folder = Folder::new("interrupted");
+    let (domain, problem) = hard();
+    let (domain, problem) = (folder.file("domain.pddl", &domain), folder.file("problem.pddl", &problem));
+    for more in [&[][..], &["--search", "anytime"], &["--time-limit", "60"]] {
+        let child = start(&folder, &[&["plan", &domain, &problem][..], more].concat());
+        std::thread::sleep(Duration::from_millis(500));
+        signal(child.id(), "INT");
+        let out = finish(child, Duration::from_secs(5));
+        let said = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert_eq!(
+            (out.status.code(), said.as_str()),
+            (Some(11), "gave up: it was interrupted\n"),
+            "{more:?}"
+        );
+    }
 }

@@ -63,6 +63,7 @@ fn proved(atoms: &Atoms<'_>, single: bool, limits: &GroundLimits<'_>) -> Result<
     let ground = atoms.ground;
     let mut open = atoms.first_candidates(single);
     let samples = samples(ground);
+    let adding = Adding::new(ground);
     let mut seen: BTreeSet<Candidate> = open.iter().cloned().collect();
     let mut looked_at = 0;
     let mut groups = Vec::new();
@@ -78,9 +79,11 @@ fn proved(atoms: &Atoms<'_>, single: bool, limits: &GroundLimits<'_>) -> Result<
         }
         // One operator of each action shows most candidates wrong at once.
         let sampled = samples.iter().map(|&at| &ground.operators[at as usize]);
-        let wrong = sampled.chain(&ground.operators).find(|operator| !instances.balanced(ground, operator));
-        match wrong {
-            None => groups.extend(instances.groups(ground, limits)?),
+        let adding = adding.to(&candidate);
+        let mut involved =
+            sampled.chain(&ground.operators).filter(|operator| adding[operator.schema as usize]);
+        match involved.find(|operator| !instances.balanced(ground, operator)) {
+            None => groups.extend(instances.groups(ground, &adding, limits)?),
             Some(operator) => {
                 for refined in atoms.refine(&candidate, &instances, operator) {
                     if seen.insert(refined.clone()) {
@@ -99,6 +102,39 @@ fn samples(ground: &Ground) -> Vec<u32> {
     (0..ground.operators.len() as u32)
         .filter(|&at| seen.insert(ground.operators[at as usize].schema))
         .collect()
+}
+
+/// The actions that add atoms of each predicate: the others need no look for a candidate.
+struct Adding {
+    /// By predicate and action.
+    adds: Vec<bool>,
+    actions: usize,
+}
+
+impl Adding {
+    fn new(ground: &Ground) -> Self {
+        let actions = ground.operators.iter().map(|operator| operator.schema as usize + 1).max().unwrap_or(0);
+        let predicates = ground.names.iter().flatten().map(|name| name.predicate as usize + 1).max();
+        let mut adds = vec![false; actions * predicates.unwrap_or(0)];
+        for operator in &ground.operators {
+            let conditional = ground.conditional[operator.conditional.range()].iter().map(|e| &e.effect);
+            let all = ground.lits(operator.effects).iter().chain(conditional);
+            for name in all.filter(|lit| lit.holds()).filter_map(|lit| ground.names[lit.atom()]) {
+                adds[name.predicate as usize * actions + operator.schema as usize] = true;
+            }
+        }
+        Adding { adds, actions }
+    }
+
+    /// By action, whether it adds atoms of a candidate's predicates.
+    fn to(&self, candidate: &Candidate) -> Vec<bool> {
+        let mut any = vec![false; self.actions];
+        for part in candidate {
+            let row = &self.adds[part.predicate as usize * self.actions..][..self.actions];
+            any.iter_mut().zip(row).for_each(|(any, adds)| *any |= adds);
+        }
+        any
+    }
 }
 
 /// Picks disjoint groups, at each step the one with the most atoms not yet covered.
@@ -307,15 +343,20 @@ impl Instances {
         None
     }
 
-    /// The groups of which at most one atom holds at first, and then ever.
-    fn groups(&self, ground: &Ground, limits: &GroundLimits<'_>) -> Result<Vec<Vec<u32>>, GroundError> {
+    /// The groups of which at most one atom holds at first, and then ever. `adding`: the actions that add atoms of them.
+    fn groups(
+        &self,
+        ground: &Ground,
+        adding: &[bool],
+        limits: &GroundLimits<'_>,
+    ) -> Result<Vec<Vec<u32>>, GroundError> {
         let mut holds = self.weight.iter().map(|&weight| weight == 1).collect::<Vec<_>>();
         // Where none holds at first, each group is looked at alone: there are no better candidates to wait for.
         let mut empty: Vec<bool> =
             self.weight.iter().zip(&self.size).map(|(&weight, &size)| weight == 0 && size >= 2).collect();
         if empty.contains(&true) {
             limits.check_time()?;
-            for operator in &ground.operators {
+            for operator in ground.operators.iter().filter(|operator| adding[operator.schema as usize]) {
                 while let Some(atom) = self.unbalanced(ground, operator, &|key| empty[key as usize]) {
                     empty[self.key_of[atom] as usize] = false;
                 }

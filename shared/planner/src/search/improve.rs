@@ -46,7 +46,10 @@ impl<'t> Improver<'_, 't> {
             Effort::States(states) => self.search_again(best, states, meter),
             Effort::Share(work) => {
                 let states = AGAIN / (self.graph.size() as u64 + STATE);
-                let best = self.search_again(best, states, meter);
+                let best = match self.states_along(&best) <= states {
+                    true => self.search_again(best, states, meter),
+                    false => best,
+                };
                 let preparation = PREPARATION * self.graph.size() as u64;
                 let work = work.saturating_mul(WORK).saturating_add(preparation) / SHARE;
                 let mut relaxation = self.relaxation();
@@ -54,6 +57,13 @@ impl<'t> Improver<'_, 't> {
                 eliminate(self.task, windows.improve(best, meter))
             }
         }
+    }
+
+    /// Roughly how many states a search estimates that goes straight to the goal.
+    fn states_along(&self, plan: &[OperatorId]) -> u64 {
+        let mut applicable = Vec::new();
+        self.successors.applicable(self.task, &self.task.init, &mut applicable);
+        applicable.len() as u64 * plan.len() as u64
     }
 
     fn relaxation(&self) -> Relaxation<'t> {
