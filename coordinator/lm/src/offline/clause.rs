@@ -194,6 +194,8 @@ impl<'a> Parser<'a> {
             && clause.complement.is_empty()
             && let Some(previous) = previous
             && (!opening.sentence || goes_somewhere(&clause))
+            && !(clause.places.is_empty() && self.is_told(start))
+            && !self.is_wished(start)
             && (!clause.objects.is_empty() || goes_somewhere(&clause) && places(previous))
         {
             if only_pronouns(previous) && goes_somewhere(&clause) && !places(previous) {
@@ -226,19 +228,37 @@ impl<'a> Parser<'a> {
         (!clause.text.is_empty()).then_some(clause)
     }
 
+    /// Whether the clause read since a position says how something is.
+    fn is_told(&self, start: usize) -> bool {
+        let said = self.words.get(start..self.position).unwrap_or_default();
+        said.iter().any(|word| ["is", "are", "was", "were"].contains(&word.as_str()))
+    }
+
+    /// Whether the clause read since a position says how something should be.
+    fn is_wished(&self, start: usize) -> bool {
+        let said = self.words.get(start..self.position).unwrap_or_default();
+        said.windows(2).any(|two| ["should", "must", "shall"].contains(&two[0].as_str()) && two[1] == "be")
+    }
+
     /// "apple in the fridge", "the fork goes in the drawer": to be put there.
     fn understood_verb(&self, clause: &mut Clause<'a>, start: usize) {
         let goes = |word: &String| is_going(word);
         let said = self.words.get(start..self.position).unwrap_or_default();
-        let told = said.iter().any(|word| ["is", "are", "was", "were"].contains(&word.as_str()));
+        let told = self.is_told(start);
+        // "bung the egg in the fridge": what is done with a thing and a place puts it there.
+        let done = self.words.get(start).is_some_and(|word| self.is_unknown_verb(word, start + 1));
+        let done = done && clause.unknown.len() == 1 && clause.unknown[0] == self.words[start];
         let going = !clause.unknown.is_empty();
-        let pronoun = |phrase: &Phrase| going && matches!(phrase.head, Head::Pronoun { .. });
-        let moved = clause.objects.iter().all(|phrase| self.is_movable(phrase) || pronoun(phrase))
-            && !clause.objects.is_empty();
+        let shall = said.iter().any(|word| ["should", "must", "shall"].contains(&word.as_str()));
+        let pronoun = |phrase: &Phrase| (going || shall) && matches!(phrase.head, Head::Pronoun { .. });
+        let all = |phrase: &Phrase| going && phrase.head == Head::Everything;
+        let moved =
+            clause.objects.iter().all(|phrase| self.is_movable(phrase) || pronoun(phrase) || all(phrase))
+                && !clause.objects.is_empty();
         let with = start.checked_sub(1).is_some_and(|at| self.words[at] == "with");
         let beside = (going || with) && clause.places.iter().any(|place| place.relation == Relation::Near);
         if clause.verbs.is_empty()
-            && clause.unknown.iter().all(goes)
+            && (done || clause.unknown.iter().all(goes))
             && !told
             && !is_denied(said)
             && moved
@@ -252,7 +272,7 @@ impl<'a> Parser<'a> {
     /// Objects, places, particles and complements, up to the next clause.
     fn arguments(&mut self, clause: &mut Clause<'a>, start: usize) {
         while let Some(word) = self.peek() {
-            if self.purpose(clause) {
+            if self.purpose(clause) || self.but_so(clause) {
                 continue;
             }
             if self.is_boundary(clause, start) {
@@ -439,6 +459,14 @@ impl<'a> Parser<'a> {
         if let Some((Relation::With, length)) = preposition(&ahead.rest()) {
             ahead.position += length;
             ahead.phrases(0);
+        }
+        // "… and the fork from the drawer to the table"
+        if let Some((Relation::From, length)) = preposition(&ahead.rest()) {
+            let start = ahead.position;
+            ahead.position += length;
+            if ahead.phrase(0).is_none() {
+                ahead.position = start;
+            }
         }
         preposition(&ahead.rest())
             .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To | Relation::Near))

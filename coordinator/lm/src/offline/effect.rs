@@ -251,7 +251,13 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             .iter()
             .rev()
             .find(|fact| fact.entity == entity && about_the_same(&fact.change, &change));
-        if last.is_none_or(|last| last.change != change) {
+        // "take the cup, fill it and give it to me": it is held in the end, not on the way.
+        let again = change == Change::Held
+            && self.facts.iter().any(|fact| fact.entity == entity && fact.clause > last_clause(last));
+        if again || last.is_none_or(|last| last.change != change) {
+            if again {
+                self.facts.retain(|fact| fact.entity != entity || fact.change != Change::Held);
+            }
             self.facts.push(Fact { clause: self.clause, entity, change });
         }
     }
@@ -360,6 +366,9 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         for &entity in &switched {
             let states = self.discourse.possible_states(entity, clause.complement.clone());
             self.add_states(entity, &states);
+            // "the slices" may be spoken of later.
+            let sliced = states.into_iter().filter(|(property, _)| property == "isSliced");
+            self.discourse.entities[entity].asked.extend(sliced);
         }
         self.keep_on_the_way(clause, &switched);
         if !clause.complement.is_empty() && clause.objects.iter().any(|phrase| self.is_movable(phrase)) {
@@ -429,6 +438,11 @@ fn is_a_trip(clause: &Clause<'_>, next: Option<&Clause<'_>>) -> bool {
 /// Whether a phrase may be a lamp.
 fn is_lamp(phrase: &Phrase) -> bool {
     matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| kind == "DeskLamp" || kind == "FloorLamp"))
+}
+
+/// The clause of a fact; no clause is before the first.
+fn last_clause(fact: Option<&Fact>) -> usize {
+    fact.map_or(usize::MAX, |fact| fact.clause)
 }
 
 /// Whether one change can undo the other.

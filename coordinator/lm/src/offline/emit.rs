@@ -35,7 +35,8 @@ impl<'e, 'a> Emitter<'e, 'a> {
     /// Completes the facts (what is chilled stays in the fridge, what is put down is not held) and finds
     /// out which of them last.
     pub fn new(discourse: &'e mut Discourse<'a>, mut facts: Vec<Fact>, stays: &[Stay]) -> Self {
-        for Stay { clause, entity, device } in stays {
+        // Of what is chilled and then heated, the last says where it stays.
+        for Stay { clause, entity, device } in stays.iter().rev() {
             let (clause, entity) = (*clause, *entity);
             let placed = facts
                 .iter()

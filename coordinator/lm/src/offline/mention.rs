@@ -114,11 +114,15 @@ impl<'a> Discourse<'a> {
         let found = match &phrase.head {
             Head::Noun(noun) => self.noun(noun, phrase, at, wants),
             Head::Named(name) => self.named(name),
+            Head::Pronoun { .. } if phrase.text.starts_with("the former") => self.some_of_these(phrase, true),
+            Head::Pronoun { .. } if phrase.text.starts_with("the latter") => {
+                self.some_of_these(phrase, false)
+            }
             Head::Pronoun { .. } if phrase.other || matches!(phrase.quantity, Quantity::Count(_)) => {
                 self.some_of_them(phrase, wants)
             }
-            Head::Pronoun { .. } if phrase.text.ends_with("former") || phrase.text.ends_with("latter") => {
-                self.one_of_two(phrase.text.ends_with("former"))
+            Head::Pronoun { plural: true } if ["each", "all"].contains(&first_word(&phrase.text)) => {
+                self.all_of_them(wants)
             }
             Head::Pronoun { .. } if is_all_of_it(&phrase.text) => self.all_of_it(wants),
             Head::Pronoun { plural } => self.pronoun(*plural, wants),
@@ -410,6 +414,10 @@ impl<'a> Discourse<'a> {
             _ => true,
         }
     }
+}
+
+fn first_word(text: &str) -> &str {
+    text.split(' ').next().unwrap_or_default()
 }
 
 /// "it all", "all of that": whatever was spoken of.

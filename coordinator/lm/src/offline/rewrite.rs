@@ -5,6 +5,9 @@ use super::lexicon::{LONGEST, Lexicon};
 use super::syntax::is_determiner;
 use super::text::Token;
 
+mod arrangement;
+mod saying;
+
 /// An aside is no longer than this, in words.
 const LONGEST_ASIDE: usize = 8;
 
@@ -17,7 +20,20 @@ const SHALL: [&str; 14] = [
 /// A sentence in plainer words.
 pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
+    text.contractions();
+    text.quantities();
+    text.whereabouts();
+    text.needless_conditions();
+    text.exclusions();
+    text.contents();
+    text.existence();
+    text.what_is_not_wanted();
     text.headings();
+    text.modals();
+    text.fronted_things();
+    text.fronted_places();
+    text.one_for_each();
+    text.which_then();
     text.subjects();
     text.small_words();
     text.relatives();
@@ -104,11 +120,25 @@ impl Rewriting<'_> {
 
     /// "Clear the table: the mug goes …": what is said behind the colon says how.
     fn headings(&mut self) {
-        const WEAK: [&str; 8] = ["clear", "tidy", "sort", "organize", "organise", "here", "there", "clean"];
+        const WEAK: [&str; 12] = [
+            "clear",
+            "tidy",
+            "sort",
+            "organize",
+            "organise",
+            "here",
+            "there",
+            "clean",
+            "swap",
+            "rearrange",
+            "redistribute",
+            "change",
+        ];
         let mut start = 0;
         let mut index = 0;
         while index < self.tokens.len() {
-            let colon = self.tokens[index].typed == ":";
+            let dash = ["-", "\u{2013}", "\u{2014}"].contains(&self.tokens[index].typed.as_str());
+            let colon = self.tokens[index].typed == ":" || dash && WEAK.contains(&self.at(start));
             let end = self.next_mark(index + 1, &["."]);
             let first = self.at(start).to_owned();
             let weak = WEAK.contains(&first.as_str()) || self.lexicon.is_small("weak", &[&first]);
@@ -116,7 +146,19 @@ impl Rewriting<'_> {
                 (index + 1..end).any(|at| is_going(self.at(at)) || ["should", "must"].contains(&self.at(at)));
             let next = self.at(index + 1);
             let ordered = !self.lexicon.verbs(next).is_empty() && self.lexicon.noun(&[next]).is_none();
-            if colon && weak && index - start <= LONGEST_ASIDE && (told || ordered) {
+            let laid = ["lay", "set", "laid"].contains(&first.as_str())
+                && index > 0
+                && self.at(index - 1).ends_with("table");
+            if colon && laid && (is_determiner(next) || self.lexicon.noun(&[next]).is_some()) {
+                self.say(index, index + 1, &["with"]);
+                continue;
+            }
+            let placed = (index + 1..end).any(|at| {
+                self.at(at) == "to"
+                    || super::syntax::preposition(&[self.at(at)]).is_some() && self.at(at) != "of"
+            });
+            let listed = WEAK.contains(&first.as_str()) && placed;
+            if colon && weak && index - start <= LONGEST_ASIDE && (told || ordered || listed) {
                 self.say(start, index + 1, &[]);
                 index = start;
                 continue;
@@ -207,6 +249,11 @@ impl Rewriting<'_> {
                 let end = self.next_mark(index, &["."]);
                 let nor = (index..end).find(|&at| self.at(at) == "nor");
                 let shall = nor.and_then(|nor| (nor..end).find(|&at| SHALL[..13].contains(&self.at(at))));
+                let goes = nor.and_then(|nor| (nor..end).find(|&at| is_going(self.at(at))));
+                if let (None, Some(goes)) = (shall, goes) {
+                    self.say(goes, goes + 1, &["should", "be"]);
+                }
+                let shall = shall.or(goes);
                 if let (Some(nor), Some(shall)) = (nor, shall) {
                     self.say(shall + 1, shall + 1, &["not"]);
                     self.say(nor, nor + 1, &["and"]);
@@ -404,49 +451,4 @@ impl Rewriting<'_> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::offline::text::tokens;
-
-    fn plain(text: &str) -> String {
-        let lexicon = Lexicon::embedded().unwrap();
-        let words: Vec<String> =
-            rewritten(tokens(text), &lexicon).into_iter().map(|token| token.text).collect();
-        words.join(" ")
-    }
-
-    #[test]
-    fn subordinate_clauses_become_main_ones() {
-        for (said, meant) in [
-            (
-                "put the egg in the bowl, which goes in the fridge",
-                "put the egg in the bowl . the bowl goes in the fridge",
-            ),
-            ("put the paper, which is old, in the bin", "put the paper in the bin"),
-            ("put the egg, since it is off, in the bin", "put the egg in the bin"),
-            ("neither the stove nor the tap should be on", "the stove and the tap should not be on"),
-            ("robots wash the fork, another the spoon", "robots wash the fork , the spoon"),
-            ("the book goes on the bed; so does the pillow", "the book goes on the bed , the pillow"),
-            ("put all but the fork away", "put all except the fork away"),
-            (
-                "valuables - the watch and the keys - go in the safe",
-                "valuables , the watch and the keys go in the safe",
-            ),
-            (
-                "cut the bread next to the apple, which you also slice",
-                "cut the bread next to the apple , and slice the apple",
-            ),
-        ] {
-            assert_eq!(plain(said), meant);
-        }
-    }
-
-    #[test]
-    fn what_is_plain_already_stays_as_it_is() {
-        for said in
-            ["put the mug on the table , and the other on the desk", "wash the fork , which is on the desk"]
-        {
-            assert_eq!(plain(said), said);
-        }
-    }
-}
+mod tests;

@@ -246,6 +246,21 @@ impl<'a> Parser<'a> {
         false
     }
 
+    /// "on the desk but closed": a state besides the place.
+    pub(super) fn but_so(&mut self, clause: &mut Clause<'a>) -> bool {
+        let state = self.word_at(1).is_some_and(|word| {
+            self.lexicon.adjective(&[word]).is_some() && self.longest_noun_at(self.position + 1).is_none()
+        });
+        let ends = self.word_at(2).is_none_or(|next| [",", ".", "and"].contains(&next));
+        if self.peek() != Some("but") || !state || !ends || clause.objects.is_empty() {
+            return false;
+        }
+        self.position += 1;
+        let told = self.complement(clause);
+        self.position -= usize::from(!told);
+        told
+    }
+
     /// "filled with water", "full of water"
     fn full_of_what(&mut self, clause: &mut Clause<'a>) {
         if !matches!(self.peek(), Some("with" | "of")) {

@@ -95,7 +95,9 @@ impl<'a> Parser<'a> {
             {
                 1
             }
-            (Some("the"), Some("other")) if self.longest_noun_at(self.position + 2).is_none() => 2,
+            (Some("the"), Some("other")) if self.longest_noun_at(self.position + 2).is_none() => {
+                2 + usize::from(self.word_at(2) == Some("one"))
+            }
             _ => return false,
         };
         let from = clause.places.iter().find(|place| place.relation == Relation::From);
@@ -124,6 +126,8 @@ impl<'a> Parser<'a> {
     pub(super) fn new_subject_follows(&self) -> bool {
         let mut ahead = self.ahead(0);
         ahead.skip_joins();
+        // "…, no drawer may be open"
+        ahead.position += usize::from(ahead.peek() == Some("no"));
         let things = ahead.phrases(0);
         let Some(first) = things.first() else { return false };
         // "…, all of them clean"
@@ -131,7 +135,8 @@ impl<'a> Parser<'a> {
             return true;
         }
         ahead.peek().is_some_and(|word| {
-            ["should", "must", "needs", "need", "is", "are", "has", "have", "ought", "can"].contains(&word)
+            ["should", "must", "needs", "need", "is", "are", "has", "have", "ought", "can", "may", "shall"]
+                .contains(&word)
                 || is_going(word) && ahead.ahead(1).place_length().is_some()
         })
     }

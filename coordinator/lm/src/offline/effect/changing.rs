@@ -5,7 +5,7 @@ use lamma_domains::goal::PropertyValue;
 use super::super::lexicon::{Act, Settings, Verb};
 use super::super::mention::Spoken;
 use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
-use super::{Change, Fact, Interpreter};
+use super::{Change, Interpreter};
 
 impl<'a> Interpreter<'_, 'a> {
     pub(super) fn set(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
@@ -24,17 +24,8 @@ impl<'a> Interpreter<'_, 'a> {
         let objects = self.objects(clause, &at, verb.wants.as_deref());
         let mut changed = Vec::new();
         for &entity in &objects {
-            let within = |fact: &Fact| {
-                matches!(fact.change, Change::Inside(at) if self.discourse.entities[at].kind() == "Microwave")
-                    && fact.entity == entity
-            };
-            let microwaved = verb.act == Act::Cook
-                && (clause.places.iter().any(is_microwave) || self.facts.iter().any(within));
             let target = self.switch_of(entity, &verb.set);
-            let mut states = self.discourse.adapted_states(target, verb);
-            if microwaved && states.remove("isCooked").is_some() {
-                states.insert("temperature".to_owned(), PropertyValue::Word("Hot".to_owned()));
-            }
+            let states = self.discourse.adapted_states(target, verb);
             self.add_states(target, &states);
             self.discourse.entities[target].asked.extend(states);
             changed.push(target);
@@ -184,9 +175,4 @@ fn is_a_while(place: &Place) -> bool {
     const TIMES: [&str; 8] = ["second", "seconds", "minute", "minutes", "moment", "while", "bit", "time"];
     place.relation == Relation::For
         && matches!(&place.phrase.head, Head::Unknown(word) if TIMES.contains(&word.as_str()))
-}
-
-/// Whether a place is a microwave: what is cooked there is heated, and that cooks what can be cooked.
-fn is_microwave(place: &Place) -> bool {
-    matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.first().is_some_and(|kind| kind == "Microwave"))
 }

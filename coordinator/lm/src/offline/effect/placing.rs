@@ -38,6 +38,10 @@ impl<'a> Interpreter<'_, 'a> {
                 return Spoken { objects, placed: true, places: vec![place], ..Spoken::default() };
             }
         }
+        if is_left_alone(clause) {
+            self.discourse.assume(format!("\"{}\": it stays as it is", clause.text), 0.95);
+            return self.only_mention(clause);
+        }
         let meanwhile = clause.link == Link::While && self.lamp_wanted && self.switches_on;
         // "put the fork with the plate": where that is.
         let near = |place: &&Place| match place.relation {
@@ -410,4 +414,10 @@ impl<'a> Interpreter<'_, 'a> {
             .map(|parent| parent.kind.clone())
             .next()
     }
+}
+
+/// "leave the knife", "leave them alone": nothing is done.
+fn is_left_alone(clause: &Clause<'_>) -> bool {
+    let left = clause.verb_text == "leave" && !clause.objects.is_empty();
+    left && clause.places.is_empty() && clause.complement.is_empty() && !clause.back
 }

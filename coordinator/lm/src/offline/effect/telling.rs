@@ -48,6 +48,15 @@ impl<'a> Interpreter<'_, 'a> {
             spoken = self.only_mention(clause);
         } else if clause.unknown.is_empty() && clause.says_any(&["want", "need", "like", "love", "fancy"]) {
             spoken = self.bring(clause);
+        } else if clause.places.iter().all(|place| place.relation == Relation::From)
+            && !clause.objects.is_empty()
+            && matches!(clause.unknown.as_slice(), [word] if ["stay", "stays"].contains(&word.as_str()))
+        {
+            // "the forks stay": where they are.
+            self.discourse.assume(format!("\"{}\" asks for nothing new", clause.text), 0.95);
+            self.spoke = true;
+            let all = clause.objects.iter().any(|phrase| phrase.head == Head::Everything);
+            spoken = if all { Spoken::default() } else { self.only_mention(clause) };
         } else if clause.is_remark() && (next.is_some() || index > 0) {
             // Why something is wanted is no order.
             self.discourse.assume(format!("took \"{}\" as a remark", clause.text), 0.9);

@@ -61,16 +61,33 @@ impl Discourse<'_> {
             .collect()
     }
 
-    /// "the former", "the latter": the first or the last of those spoken of together.
-    pub(super) fn one_of_two(&mut self, first: bool) -> Vec<usize> {
-        let group = self.spoken.iter().rev().find(|spoken| spoken.objects.len() > 1);
-        let one = group
-            .and_then(|spoken| if first { spoken.objects.first() } else { spoken.objects.last() })
-            .copied();
-        if one.is_none() {
+    /// "the former", "the latter two": the first or the last of those spoken of together.
+    pub(super) fn some_of_these(&mut self, phrase: &Phrase, first: bool) -> Vec<usize> {
+        let count = if let Quantity::Count(count) = phrase.quantity { count } else { 1 };
+        let group = self.spoken.iter().rev().map(|spoken| &spoken.objects).find(|group| group.len() > count);
+        let Some(group) = group else {
             self.problem("it is not said which of them is meant".to_owned(), 0.3);
+            return Vec::new();
+        };
+        if first { group[..count].to_vec() } else { group[group.len() - count..].to_vec() }
+    }
+
+    /// "all of them", "each": what was spoken of since something was put somewhere, or in the clause that put it.
+    pub(super) fn all_of_them(&mut self, wants: Option<&str>) -> Vec<usize> {
+        let mut found: Vec<usize> = Vec::new();
+        for spoken in self.spoken.iter().rev() {
+            let able = |&entity: &usize| {
+                wants.is_none_or(|wants| self.affords(self.entities[entity].kind(), wants))
+                    && !found.contains(&entity)
+            };
+            if spoken.placed && !found.is_empty() {
+                break;
+            }
+            let able: Vec<usize> = spoken.objects.iter().copied().filter(able).collect();
+            found.extend(able);
         }
-        one.into_iter().collect()
+        found.sort_unstable();
+        if found.len() > 1 { found } else { self.pronoun(true, wants) }
     }
 
     /// "put it all on the table": whatever was spoken of and can be carried.

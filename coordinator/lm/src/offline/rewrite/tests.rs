@@ -1,0 +1,87 @@
+use super::*;
+use crate::offline::text::tokens;
+
+fn plain(text: &str) -> String {
+    let lexicon = Lexicon::embedded().unwrap();
+    let words: Vec<String> = rewritten(tokens(text), &lexicon).into_iter().map(|token| token.text).collect();
+    words.join(" ")
+}
+
+#[test]
+fn subordinate_clauses_become_main_ones() {
+    for (said, meant) in [
+        (
+            "put the egg in the bowl, which goes in the fridge",
+            "put the egg in the bowl . the bowl goes in the fridge",
+        ),
+        ("put the paper, which is old, in the bin", "put the paper in the bin"),
+        ("put the egg, since it is off, in the bin", "put the egg in the bin"),
+        ("neither the stove nor the tap should be on", "the stove and the tap should not be on"),
+        ("robots wash the fork, another the spoon", "robots wash the fork , the spoon"),
+        ("the book goes on the bed; so does the pillow", "the book goes on the bed , the pillow"),
+        ("put all but the fork away", "put all except the fork away"),
+        (
+            "valuables - the watch and the keys - go in the safe",
+            "valuables , the watch and the keys go in the safe",
+        ),
+        (
+            "cut the bread next to the apple, which you also slice",
+            "cut the bread next to the apple , and slice the apple",
+        ),
+    ] {
+        assert_eq!(plain(said), meant);
+    }
+}
+
+#[test]
+fn what_is_plain_already_stays_as_it_is() {
+    for said in
+        ["put the mug on the table , and the other on the desk", "wash the fork , which is on the desk"]
+    {
+        assert_eq!(plain(said), said);
+    }
+}
+
+#[test]
+fn what_is_said_in_other_ways_is_put_plainly() {
+    for (said, meant) in [
+        ("the lamp isn't on", "the lamp is not on"),
+        ("once you've cut the bread, toast it", "once you have cut the bread , toast it"),
+        ("having washed the cup, dry it", "once you have washed the cup , dry it"),
+        ("the bowl can go on the counter", "the bowl should go on the counter"),
+        ("I can barely see the book", "i could barely see the book"),
+        ("the remote has to lie on the table", "the remote should be on the table"),
+        ("make sure that there's soap in the sink", "make sure that soap is in the sink"),
+        ("there should be an egg in the pan", "an egg should be in the pan"),
+        ("none of the drawers may be open", "no drawers may be open"),
+        ("wash the cup that is lying in the sink", "wash the cup that is in the sink"),
+        ("a fork placed in the sink", "a fork in the sink"),
+        ("put the cup on the shelf where the vase was", "put the cup on the shelf"),
+        ("make sure the toilet lid is down", "make sure the toilet lid is closed"),
+        ("turn the lamp on if it isn't on already", "turn the lamp on"),
+        ("close the box unless it's closed already", "close the box"),
+        ("unless the box is open, open it", "if the box is not open , open it"),
+        ("put everything else in the box", "put the rest in the box"),
+    ] {
+        assert_eq!(plain(said), meant, "{said}");
+    }
+}
+
+#[test]
+fn words_are_put_in_their_usual_order() {
+    for (said, meant) in [
+        ("in the drawer go the fork and the spoon", "the fork and the spoon go in the drawer"),
+        ("on the plate I want the egg", "i want the egg on the plate"),
+        ("the plate I want on the table", "i want the plate on the table"),
+        ("instead of leaving the cup in the sink, wash it", "the cup . wash it"),
+        ("put the cup on the desk instead of on the bed", "put the cup on the desk"),
+        (
+            "the book and the pen each get their own shelf",
+            "put the book in one shelf , put the pen in another shelf",
+        ),
+        ("neither the cup nor the mug belongs in the sink", "the cup and the mug should not be in the sink"),
+        ("lay the table: a plate and a fork", "lay the table with a plate and a fork"),
+    ] {
+        assert_eq!(plain(said), meant, "{said}");
+    }
+}
