@@ -228,47 +228,6 @@ impl<'a> Parser<'a> {
         (!clause.text.is_empty()).then_some(clause)
     }
 
-    /// Whether the clause read since a position says how something is.
-    fn is_told(&self, start: usize) -> bool {
-        let said = self.words.get(start..self.position).unwrap_or_default();
-        said.iter().any(|word| ["is", "are", "was", "were"].contains(&word.as_str()))
-    }
-
-    /// Whether the clause read since a position says how something should be.
-    fn is_wished(&self, start: usize) -> bool {
-        let said = self.words.get(start..self.position).unwrap_or_default();
-        said.windows(2).any(|two| ["should", "must", "shall"].contains(&two[0].as_str()) && two[1] == "be")
-    }
-
-    /// "apple in the fridge", "the fork goes in the drawer": to be put there.
-    fn understood_verb(&self, clause: &mut Clause<'a>, start: usize) {
-        let goes = |word: &String| is_going(word);
-        let said = self.words.get(start..self.position).unwrap_or_default();
-        let told = self.is_told(start);
-        // "bung the egg in the fridge": what is done with a thing and a place puts it there.
-        let done = self.words.get(start).is_some_and(|word| self.is_unknown_verb(word, start + 1));
-        let done = done && clause.unknown.len() == 1 && clause.unknown[0] == self.words[start];
-        let going = !clause.unknown.is_empty();
-        let shall = said.iter().any(|word| ["should", "must", "shall"].contains(&word.as_str()));
-        let pronoun = |phrase: &Phrase| (going || shall) && matches!(phrase.head, Head::Pronoun { .. });
-        let all = |phrase: &Phrase| going && phrase.head == Head::Everything;
-        let moved =
-            clause.objects.iter().all(|phrase| self.is_movable(phrase) || pronoun(phrase) || all(phrase))
-                && !clause.objects.is_empty();
-        let with = start.checked_sub(1).is_some_and(|at| self.words[at] == "with");
-        let beside = (going || with) && clause.places.iter().any(|place| place.relation == Relation::Near);
-        if clause.verbs.is_empty()
-            && (done || clause.unknown.iter().all(goes))
-            && !told
-            && !is_denied(said)
-            && moved
-            && (goes_somewhere(clause) || beside)
-        {
-            clause.verbs = self.putting();
-            clause.unknown.clear();
-        }
-    }
-
     /// Objects, places, particles and complements, up to the next clause.
     fn arguments(&mut self, clause: &mut Clause<'a>, start: usize) {
         while let Some(word) = self.peek() {
@@ -482,4 +441,5 @@ mod follows;
 mod opening;
 mod place;
 mod shape;
+mod understood;
 mod verb;

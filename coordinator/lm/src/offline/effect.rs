@@ -114,6 +114,11 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 }
                 Act::Set if liquid && self.runs_into(clause, verb) => self.fill(clause, verb),
                 _ if is_a_trip(clause, next) => self.trip(clause),
+                Act::Place | Act::Pour
+                    if liquid && clause.places.is_empty() && self.vessel_spoken_of().is_some() =>
+                {
+                    self.fill_vessel_spoken_of(clause)
+                }
                 Act::Place | Act::Hold | Act::Keep
                     if liquid && clause.places.iter().any(|place| self.runs_in(place)) =>
                 {

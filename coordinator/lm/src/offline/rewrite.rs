@@ -7,6 +7,7 @@ use super::text::Token;
 
 mod arrangement;
 mod saying;
+mod topic;
 
 /// An aside is no longer than this, in words.
 const LONGEST_ASIDE: usize = 8;
@@ -21,10 +22,20 @@ const SHALL: [&str; 14] = [
 pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
+    text.announced_lists();
+    text.listed_in_brackets();
+    text.topics();
+    text.turns_of_phrase();
+    text.first_and_second();
+    text.with_something_somewhere();
     text.quantities();
     text.whereabouts();
     text.needless_conditions();
     text.exclusions();
+    text.conditions();
+    text.containing();
+    text.what_was_done();
+    text.orders_in_relatives();
     text.contents();
     text.existence();
     text.what_is_not_wanted();
@@ -416,17 +427,20 @@ impl Rewriting<'_> {
             {
                 2
             } else {
-                usize::from(index > 0 && ["namely", "ie"].contains(&self.at(index)))
+                let means = self.at(index) == "which" && ["means", "mean"].contains(&self.at(index + 1));
+                usize::from(index > 0 && ["namely", "ie", "meaning", "viz"].contains(&self.at(index)))
+                    + 2 * usize::from(index > 0 && means)
             };
             if namely > 0 {
                 // What is named is all that is meant: "the dishes, namely the pan and the pot, …" is no plate.
                 let comma = usize::from(self.at(index + namely) == ",");
-                let class = (index.saturating_sub(6)..index.saturating_sub(1))
+                let run = (index.saturating_sub(9)..index.saturating_sub(1))
                     .rev()
-                    .take_while(|&at| !self.is_mark(at))
-                    .find(|&at| {
-                        is_determiner(self.at(at)) || ["anything", "everything"].contains(&self.at(at))
-                    });
+                    .take_while(|&at| !self.is_mark(at) && self.at(at) != "and");
+                let run: Vec<usize> = run.collect();
+                let whole = |at: &usize| ["anything", "everything"].contains(&self.at(*at));
+                let class = run.iter().copied().find(whole);
+                let class = class.or(run.into_iter().rfind(|&at| is_determiner(self.at(at))));
                 let from = class.filter(|_| self.at(index - 1) == ",").unwrap_or(index);
                 self.say(from, index + namely + comma, &[]);
                 index = from;

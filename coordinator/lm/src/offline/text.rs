@@ -24,6 +24,7 @@ pub struct Token {
 
 /// Splits an instruction into words and the marks that separate clauses.
 pub fn tokens(instruction: &str) -> Vec<Token> {
+    let instruction = &instruction.replace("i.e.", "ie").replace("I.e.", "ie").replace("e.g.", "eg");
     let mut found = Vec::new();
     let mut word = String::new();
     let flush = |word: &mut String, found: &mut Vec<Token>| {

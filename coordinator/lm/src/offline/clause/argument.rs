@@ -370,7 +370,11 @@ impl<'a> Parser<'a> {
         let Some(word) = self.word_at(at) else { return false };
         let wanted = if article == 1 { VerbForm::Base } else { VerbForm::Gerund };
         let doing = |(form, particles, verb): &(VerbForm, &[String], &Verb)| {
-            *form == wanted && particles.is_empty() && !matches!(verb.act, Act::Place | Act::Go)
+            *form == wanted
+                && particles.is_empty()
+                && (verb.act != Act::Place
+                    || self.word_at(at + 1).is_some_and(|w| preposition(&[w]).is_some()))
+                && verb.act != Act::Go
         };
         clause.verbs = self.lexicon.verbs(word).into_iter().filter(doing).map(|(_, _, verb)| verb).collect();
         if clause.verbs.is_empty() {

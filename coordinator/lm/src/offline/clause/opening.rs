@@ -106,11 +106,12 @@ impl Parser<'_> {
                 }
                 "dont" | "never" | "without" | "not" | "avoid" => opening.negated = true,
                 _ => match polite {
-                    Some(length) => {
+                    // "next to the plate lay the fork"
+                    Some(length) if word != "next" || preposition(&rest).is_none() => {
                         self.position += length;
                         continue;
                     }
-                    None => break,
+                    _ => break,
                 },
             }
             self.position += 1;

@@ -48,6 +48,24 @@ impl<'a> Interpreter<'_, 'a> {
         Spoken { objects: changed, places, placed: false, ..Spoken::default() }
     }
 
+    /// What was spoken of last and holds liquids.
+    pub(super) fn vessel_spoken_of(&self) -> Option<usize> {
+        let discourse = &self.discourse;
+        let holds = |&e: &usize| discourse.scene.affords(discourse.entities[e].kind(), "canFillWithLiquid");
+        let mut spoken =
+            discourse.spoken.iter().rev().flat_map(|spoken| spoken.places.iter().chain(&spoken.objects));
+        spoken.find(|entity| holds(entity)).copied()
+    }
+
+    /// "put the potato in the pot and add water": to the pot.
+    pub(super) fn fill_vessel_spoken_of(&mut self, clause: &Clause<'a>) -> Spoken {
+        let Some(vessel) = self.vessel_spoken_of() else { return Spoken::default() };
+        for liquid in clause.objects.iter().filter_map(Phrase::liquid) {
+            self.add_states(vessel, &super::super::mention::filled(liquid));
+        }
+        Spoken { objects: vec![vessel], ..Spoken::default() }
+    }
+
     /// "slice the potato on the table": it is on the table when it is done.
     fn stay_where_cut(&mut self, clause: &Clause<'a>, verb: &Verb, objects: &[usize]) {
         let scene = self.discourse.scene;

@@ -275,10 +275,15 @@ impl<'a> Interpreter<'_, 'a> {
             self.add_states(entity, &states);
         }
         if let Some(&place) = places.first() {
-            for &entity in &objects {
-                if entity != place {
-                    self.put_in(entity, place);
-                }
+            // What surely fits says which place is meant, whatever else goes there.
+            let home = self.discourse.entities[place].kind().to_owned();
+            let fits = |&entity: &usize| {
+                !self.discourse.scene.surely_accepts(&home, self.discourse.entities[entity].kind())
+            };
+            let mut in_order = objects.clone();
+            in_order.sort_by_key(fits);
+            for &entity in in_order.iter().filter(|&&entity| entity != place) {
+                self.put_in(entity, place);
             }
         }
         Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }

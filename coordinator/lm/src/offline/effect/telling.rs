@@ -48,7 +48,7 @@ impl<'a> Interpreter<'_, 'a> {
             spoken = self.only_mention(clause);
         } else if clause.unknown.is_empty() && clause.says_any(&["want", "need", "like", "love", "fancy"]) {
             spoken = self.bring(clause);
-        } else if clause.places.iter().all(|place| place.relation == Relation::From)
+        } else if ["stay", "stays"].iter().any(|word| clause.text.ends_with(word))
             && !clause.objects.is_empty()
             && matches!(clause.unknown.as_slice(), [word] if ["stay", "stays"].contains(&word.as_str()))
         {
@@ -209,8 +209,13 @@ pub(in crate::offline) fn untrue_place<'c>(clause: &'c Clause<'_>, scene: &Scene
         }
         _ => false,
     };
+    let is_here = |phrase: &Phrase| matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| scene.affords(kind, "pickupable")));
     let takes = home.kinds.iter().any(|kind| scene.affords(kind, "receptacle"));
-    (takes && !clause.objects.is_empty() && clause.objects.iter().all(elsewhere)).then_some(place)
+    let listed = clause.objects.len() > 1 && clause.objects.iter().all(is_here);
+    (takes
+        && !clause.objects.is_empty()
+        && (clause.objects.iter().all(elsewhere) || listed && clause.objects.iter().any(elsewhere)))
+    .then_some(place)
 }
 
 /// "the pan needs to be washed"

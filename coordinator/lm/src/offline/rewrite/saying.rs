@@ -77,9 +77,22 @@ impl Rewriting<'_> {
                 self.say(index, index + 3, &["should", "not"]);
             } else if ["is", "are", "has", "have", "needs", "need", "ought"].contains(&word)
                 && next == "to"
-                && (resting(self.at(index + 2)) || word == "is" && self.at(index + 2) == "go")
+                && (resting(self.at(index + 2))
+                    || word == "is" && self.at(index + 2) == "go"
+                    || self.at(index + 2) == "be"
+                        && (preposition(&[self.at(index + 3)]).is_some() || self.at(index + 3) == "there"))
             {
                 self.say(index, index + 2, &["should"]);
+            }
+            if self.at(index) == "to"
+                && resting(self.at(index + 1))
+                && preposition(&[self.at(index + 2)]).is_some()
+            {
+                self.say(index + 1, index + 2, &["be"]);
+            } else if self.starts(index, &["returned", "to"])
+                && [",", "and", "be", "is", "are", "then"].contains(&self.at(index - 1))
+            {
+                self.say(index, index + 2, &["put", "in"]);
             }
             let resting_so = |at: usize| {
                 preposition(&[self.at(at)]).is_some() || self.lexicon.adjective(&[self.at(at)]).is_some()
@@ -178,7 +191,8 @@ impl Rewriting<'_> {
                 "up" => "open",
                 _ => "",
             };
-            let ends = self.is_mark(index + 1) || self.at(index + 1) == "and";
+            let ends = self.is_mark(index + 1)
+                || ["and", "by", "at", "when", "before", "after", "once"].contains(&self.at(index + 1));
             let told = ["is", "are", "be", "stay", "stays"].contains(&self.at(index - 1))
                 && (index.saturating_sub(4)..index).any(|at| self.folds_down(at));
             if !way.is_empty() && ends && (told || self.folds_down(index)) {
@@ -216,6 +230,122 @@ impl Rewriting<'_> {
             {
                 self.say(closes, closes + 1, &[]);
                 self.say(index, index + 1, &[]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "the fridge should contain the egg and the milk": those should be in it.
+    pub(super) fn containing(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let shall = usize::from(["should", "must", "shall"].contains(&self.at(index)));
+            let holds = ["contain", "contains", "hold", "holds"].contains(&self.at(index + shall))
+                && (is_determiner(self.at(index + shall + 1)) || shall == 1);
+            let vessel = self.noun_before(index).map_or(0, |noun| noun.len());
+            let first = index - vessel;
+            let (true, true) = (holds && vessel > 0, first > 0 && is_determiner(self.at(first - 1))) else {
+                index += 1;
+                continue;
+            };
+            let things = index + shall + 1;
+            let end = (things..self.tokens.len())
+                .find(|&at| self.at(at) == "." || self.at(at) == "that" || self.another_verb(at))
+                .unwrap_or(self.tokens.len());
+            let end =
+                (things..end).rev().find(|&at| ![",", "and"].contains(&self.at(at))).map_or(end, |at| at + 1);
+            let mut behind = vec!["should".to_owned(), "be".to_owned(), "in".to_owned()];
+            behind.extend((first - 1..index).map(|at| self.at(at).to_owned()));
+            let behind: Vec<&str> = behind.iter().map(String::as_str).collect();
+            self.say(end, end, &behind);
+            self.say(first - 1, things, &[]);
+            index = end;
+        }
+    }
+
+    /// ", turn …", "and the light should …": what follows is said of something else.
+    fn another_verb(&self, at: usize) -> bool {
+        if ![",", "and"].contains(&self.at(at)) {
+            return false;
+        }
+        let end = self.next_mark(at + 1, &[",", "."]);
+        let next = self.at(at + 1 + usize::from(self.at(at + 1) == "and"));
+        let ordered = !self.lexicon.verbs(next).is_empty() && self.lexicon.noun(&[next]).is_none();
+        ordered
+            || (at + 1..end)
+                .any(|at| SHALL.contains(&self.at(at)) || ["contains", "holds"].contains(&self.at(at)))
+    }
+
+    /// "everything you cut", "whatever is washed": all of them.
+    pub(super) fn what_was_done(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let all = ["everything", "all", "whatever", "anything"].contains(&self.at(index));
+            let that = usize::from(self.at(index + 1) == "that");
+            let person = ["you", "we", "youve", "weve"].contains(&self.at(index + 1 + that));
+            let being =
+                ["is", "was", "has"].contains(&self.at(index + 1 + that)) && self.at(index) == "whatever";
+            let more = (index + 2 + that..)
+                .take_while(|&at| ["have", "just", "already", "been", "had"].contains(&self.at(at)))
+                .count();
+            let done = index + 2 + that + more;
+            let particle = usize::from(["up", "out"].contains(&self.at(done + 1)));
+            let past = self.lexicon.verbs(self.at(done)).iter().any(|(form, _, _)| *form == VerbForm::Past)
+                || ["cut", "put"].contains(&self.at(done));
+            let closes = done + 1 + particle;
+            let behind = self.at(closes);
+            let ends = self.is_mark(closes)
+                || preposition(&[behind]).is_some()
+                || SHALL.contains(&behind)
+                || crate::offline::clause::is_going(behind);
+            if all && (person || being) && past && ends {
+                self.say(index, closes, &["all", "of", "them"]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "the bowl which you then put in the fridge": put the bowl in the fridge.
+    pub(super) fn orders_in_relatives(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let which = ["which", "that"].contains(&self.at(index)) && self.at(index + 1) == "you";
+            let then = ["then", "also", "afterwards", "should", "must"].contains(&self.at(index + 2));
+            let verb = self.at(index + 3).to_owned();
+            let placed = preposition(&[self.at(index + 4)]).is_some();
+            let comma = usize::from(self.at(index - 1) == ",");
+            let noun = self.noun_before(index - comma);
+            if let (true, Some(noun)) =
+                (which && then && placed && !self.lexicon.verbs(&verb).is_empty(), noun)
+            {
+                let mut order: Vec<&str> = vec![".", verb.as_str(), "the"];
+                order.extend(noun.iter().map(String::as_str));
+                self.say(index - comma, index + 4, &order);
+            }
+            index += 1;
+        }
+    }
+
+    /// "if the lamp is off turn it on": what holds, and then what is to be done.
+    pub(super) fn conditions(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let end = self.next_mark(index, &[",", "."]);
+            let is =
+                (index + 1..end.min(index + LONGEST_ASIDE)).find(|&at| ["is", "are"].contains(&self.at(at)));
+            if let Some(is) = is.filter(|_| self.at(index) == "if") {
+                let state = is + 1 + usize::from(self.at(is + 1) == "not");
+                let next = self.at(state + 2);
+                let ordered = self.lexicon.adjective(&[self.at(state)]).is_some()
+                    && self
+                        .lexicon
+                        .verbs(self.at(state + 1))
+                        .iter()
+                        .any(|(form, _, _)| *form == VerbForm::Base)
+                    && (is_determiner(next) || ["it", "them"].contains(&next));
+                if ordered {
+                    self.say(state + 1, state + 1, &[","]);
+                }
             }
             index += 1;
         }

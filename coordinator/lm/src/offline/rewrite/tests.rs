@@ -62,6 +62,10 @@ fn what_is_said_in_other_ways_is_put_plainly() {
         ("close the box unless it's closed already", "close the box"),
         ("unless the box is open, open it", "if the box is not open , open it"),
         ("put everything else in the box", "put the rest in the box"),
+        ("put the mug, full of water, on the desk", "put the mug full of water on the desk"),
+        ("the fridge must contain the egg and the milk", "the egg and the milk should be in the fridge"),
+        ("cut the egg and put everything you cut in the bowl", "cut the egg and put all of them in the bowl"),
+        ("the bowl which you then put in the sink", "the bowl . put the bowl in the sink"),
     ] {
         assert_eq!(plain(said), meant, "{said}");
     }
@@ -81,6 +85,33 @@ fn words_are_put_in_their_usual_order() {
         ),
         ("neither the cup nor the mug belongs in the sink", "the cup and the mug should not be in the sink"),
         ("lay the table: a plate and a fork", "lay the table with a plate and a fork"),
+    ] {
+        assert_eq!(plain(said), meant, "{said}");
+    }
+}
+
+#[test]
+fn what_is_only_spoken_of_asks_for_nothing() {
+    for (said, meant) in [
+        ("you'll find the pot in the cabinet; fill it", "the pot . fill it"),
+        ("no need to wash the plate, just put it away", "the plate . just put it away"),
+        ("I don't want the cup on the desk, I want it in the sink", "the cup . i want it in the sink"),
+        ("put the following in the box: the cup and the pen", "put the cup and the pen in the box"),
+        ("stack these on the desk - cups, plates - and go", "stack cups , plates on the desk and go"),
+        ("put my stuff (the phone and the keys) on the desk", "put the phone and the keys on the desk"),
+        (
+            "the first goes in the drawer, the second on the desk",
+            "the former goes in the drawer , the latter on the desk",
+        ),
+        ("the cup stays where it is", "the cup stays"),
+        ("off with the lights", "turn off the lights"),
+        ("and do wash the bowl", "and wash the bowl"),
+        ("if the lamp is off turn it on", "if the lamp is off , turn it on"),
+        (
+            "lay it on the plate, with the plate on the table",
+            "lay it on the plate , and put the plate on the table",
+        ),
+        ("everything edible", "all the food"),
     ] {
         assert_eq!(plain(said), meant, "{said}");
     }
