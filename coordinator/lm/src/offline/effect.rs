@@ -161,13 +161,25 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         phrases.iter().flat_map(|phrase| self.discourse.mention(phrase, &[], None)).collect()
     }
 
+    /// What was treated as something else shall be: of what was spoken of, the last that is cut like it, else the last.
+    fn model_for(&self, phrases: &[Phrase]) -> Option<usize> {
+        let scene = self.discourse.scene;
+        let food = phrases.iter().any(|phrase| {
+            matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| scene.affords(kind, "sliceable")))
+        });
+        let alike = |e: &usize| scene.affords(self.discourse.entities[*e].kind(), "sliceable") == food;
+        let mut spoken =
+            self.discourse.spoken.iter().rev().filter_map(|spoken| spoken.objects.last().copied());
+        let last = spoken.clone().next();
+        spoken.find(alike).or(last)
+    }
+
     /// "do the same with the spoon": all that was asked for of the thing spoken of last.
     fn same_again(&mut self, clause: &Clause<'a>, spoken: &mut Spoken) -> bool {
-        let model = self.discourse.spoken.iter().rev().find_map(|spoken| spoken.objects.last().copied());
-        let Some(model) = model else { return false };
         let kind = |phrase: &&Phrase| matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| self.discourse.scene.has(kind)));
         let places = clause.places.iter().map(|place| &place.phrase);
         let phrases: Vec<Phrase> = clause.objects.iter().chain(places).filter(kind).cloned().collect();
+        let Some(model) = self.model_for(&phrases) else { return false };
         let facts: Vec<Change> =
             self.facts.iter().filter(|fact| fact.entity == model).map(|fact| fact.change.clone()).collect();
         for phrase in &phrases {

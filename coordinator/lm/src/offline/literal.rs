@@ -97,3 +97,23 @@ pub fn is_mere_step(clause: &Clause<'_>) -> bool {
             matches!(verb.act, Act::Use | Act::Hold) || verb.act == Act::Place && clause.places.is_empty()
         })
 }
+
+/// Whether a clause tells something of nothing here, beside clauses that say what to do: "guests are coming".
+pub fn only_tells(index: usize, clauses: &[Clause<'_>], lexicon: &Lexicon, scene: &Scene<'_>) -> bool {
+    let clause = &clauses[index];
+    let is_here = |phrase: &syntax::Phrase| match &phrase.head {
+        syntax::Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.has(kind)),
+        syntax::Head::Named(_) | syntax::Head::Pronoun { .. } | syntax::Head::Everything => true,
+        _ => false,
+    };
+    let says = |clause: &Clause<'_>| is_concrete(clause, lexicon, scene) && !clause.negated;
+    let others = clauses.iter().enumerate().filter(|(other, clause)| *other != index && says(clause));
+    clause.verbs.is_empty()
+        && clause.complement.is_empty()
+        && !clause.says_any(&["want", "need", "like", "love", "fancy", "should", "must"])
+        && clause.says_any(&[
+            "is", "are", "will", "am", "im", "coming", "was", "were", "has", "have", "be", "theyre",
+        ])
+        && !clause.objects.iter().any(is_here)
+        && others.count() > 1
+}

@@ -35,7 +35,7 @@ use effect::{Change, Fact, Interpreter};
 use emit::{Emitter, Stay};
 pub use gloss::Gloss;
 use lexicon::Lexicon;
-use literal::{is_concrete, is_mere_step, is_weak, only_goes, says_state, says_where};
+use literal::{is_concrete, is_mere_step, is_weak, only_goes, only_tells, says_state, says_where};
 use mention::{Discourse, Spoken};
 use scene::Scene;
 use snapshot::Snapshot;
@@ -300,6 +300,11 @@ fn one_clause<'a>(
     lexicon: &Lexicon,
 ) {
     let clause = &clauses[index];
+    if only_tells(index, clauses, lexicon, interpreter.discourse.scene) {
+        interpreter.discourse.assume(format!("took \"{}\" as a remark", clause.text), 0.95);
+        interpreter.discourse.spoken.push(Spoken::default());
+        return;
+    }
     // "empty the sink by moving the pan to the stove": what comes next says how.
     let by = clauses.get(index + 1).is_some_and(|next| next.words.first().is_some_and(|word| word == "by"));
     let words = situation::words_of(&clause.words);
@@ -309,7 +314,11 @@ fn one_clause<'a>(
         done_by_what_follows(interpreter, clause);
         return;
     }
+    // "I would like the soup ladle to be washed": a wish that goes on.
+    let goes_on =
+        clauses.get(index + 1).is_some_and(|next| next.words.starts_with(&["to".into(), "be".into()]));
     if !clause.negated
+        && !goes_on
         && is_weak(clause, lexicon)
         && !says_where(clause, interpreter.discourse.scene)
         && !says_state(clause, interpreter.discourse.scene)

@@ -8,6 +8,7 @@ use super::text::Token;
 mod arrangement;
 mod saying;
 mod topic;
+mod wishing;
 
 /// An aside is no longer than this, in words.
 const LONGEST_ASIDE: usize = 8;
@@ -22,6 +23,11 @@ const SHALL: [&str; 14] = [
 pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
+    text.questions();
+    text.needs();
+    text.ready();
+    text.bare_lists();
+    text.states_said_last();
     text.announced_lists();
     text.listed_in_brackets();
     text.topics();
@@ -186,7 +192,10 @@ impl Rewriting<'_> {
         let mut index = 1;
         while index < self.tokens.len() {
             let (before, word, next) = (self.at(index - 1), self.at(index), self.at(index + 1));
-            let all = before == "they" && ["all", "both"].contains(&word);
+            let all = before == "they" && ["all", "both"].contains(&word)
+                || ["all", "both", "each"].contains(&word)
+                    && ["need", "needs", "should", "must", "have", "has"].contains(&next)
+                    && self.noun_before(index).is_some();
             let same = before == "the" && word == "same" && self.lexicon.noun(&[next]).is_some();
             let out = ["stay", "stays", "left", "kept", "stand"].contains(&before)
                 && word == "out"

@@ -282,6 +282,10 @@ impl<'a> Interpreter<'_, 'a> {
             };
             let mut in_order = objects.clone();
             in_order.sort_by_key(fits);
+            let several = in_order.len() > 1 && in_order.first().is_some_and(|entity| !fits(entity));
+            if several {
+                self.discourse.entities[place].kinds.truncate(1);
+            }
             for &entity in in_order.iter().filter(|&&entity| entity != place) {
                 self.put_in(entity, place);
             }

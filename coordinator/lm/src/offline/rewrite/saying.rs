@@ -19,7 +19,7 @@ const DENIALS: [(&str, &str); 10] = [
 ];
 
 /// Verbs that say no more of a thing than where it is.
-const RESTING: [&str; 7] = ["lie", "stand", "sit", "rest", "remain", "wait", "live"];
+const RESTING: [&str; 8] = ["lie", "stand", "sit", "rest", "remain", "wait", "live", "hang"];
 
 /// How things are where they are.
 const LYING: [&str; 12] = [
@@ -150,6 +150,8 @@ impl Rewriting<'_> {
             {
                 self.say(index, index + 1, &[]);
                 continue;
+            } else if self.at(index) == "1" && self.lexicon.noun(&[self.at(index + 1)]).is_some() {
+                self.say(index, index + 1, &["one"]);
             } else if self.at(index) == "plus" {
                 self.say(index, index + 1, &["and"]);
             } else if ["everything", "anything"].contains(&self.at(index)) && self.at(index + 1) == "else" {
@@ -160,6 +162,13 @@ impl Rewriting<'_> {
                 && preposition(&[self.at(index + 3)]).is_some()
             {
                 self.say(index + 2, index + 3, &[]);
+            } else if index > 0
+                && ["lined", "stacked", "piled", "set", "laid"].contains(&self.at(index))
+                && ["up", "out"].contains(&self.at(index + 1))
+                && preposition(&[self.at(index + 2)]).is_some()
+                && self.noun_before(index).is_some()
+            {
+                self.say(index, index + 2, &[]);
             } else if index > 0
                 && LYING.contains(&self.at(index))
                 && preposition(&[self.at(index + 1)]).is_some_and(|_| self.at(index + 1) != "of")
@@ -346,6 +355,29 @@ impl Rewriting<'_> {
                 if ordered {
                     self.say(state + 1, state + 1, &[","]);
                 }
+            }
+            // "wash it if it is dirty, otherwise …": the condition first.
+            let otherwise = self.at(end) == "," && ["otherwise", "else"].contains(&self.at(end + 1));
+            if self.at(index) == "if" && index > 0 && !self.is_mark(index - 1) && otherwise {
+                let start = (0..index).rev().find(|&at| self.is_mark(at)).map_or(0, |at| at + 1);
+                let condition: Vec<String> = (index..end).map(|at| self.at(at).to_owned()).collect();
+                let mut condition: Vec<&str> = condition.iter().map(String::as_str).collect();
+                condition.push(",");
+                let thing: Vec<String> = (start + 1..index).map(|at| self.at(at).to_owned()).collect();
+                let named = thing.first().is_some_and(|word| is_determiner(word));
+                if named && condition.get(1) == Some(&"it") {
+                    let is = usize::from(condition.get(2) != Some(&"is"));
+                    let is: &[&str] = if is == 1 { &["is"] } else { &[] };
+                    condition.splice(1..2, thing.iter().map(String::as_str).chain(is.iter().copied()));
+                    self.say(start + 1, end, &["it"]);
+                } else {
+                    if condition.get(1) == Some(&"it") && condition.get(2) != Some(&"is") {
+                        condition.insert(2, "is");
+                    }
+                    self.say(index, end, &[]);
+                }
+                self.say(start, start, &condition);
+                index = start + condition.len();
             }
             index += 1;
         }

@@ -112,6 +112,18 @@ fn what_is_only_spoken_of_asks_for_nothing() {
             "lay it on the plate , and put the plate on the table",
         ),
         ("everything edible", "all the food"),
+        (
+            "wash the cup if it is dirty, otherwise store it",
+            "if the cup is dirty , wash it , otherwise store it",
+        ),
+        ("could the lights be turned off", "the lights should be turned off"),
+        ("the salt is needed on the desk", "the salt should be on the desk"),
+        ("I could do with a cup", "i want a cup"),
+        ("whatever is on the desk", "everything on the desk"),
+        ("the cup must be dried and put away", "the cup must be put away"),
+        ("put it away once it is clean", "put it away"),
+        ("take the cup the plate and the fork", "take the cup , the plate and the fork"),
+        ("put the cup on the desk, drawers shut", "put the cup on the desk , drawers should be shut"),
     ] {
         assert_eq!(plain(said), meant, "{said}");
     }

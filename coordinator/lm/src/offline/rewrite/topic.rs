@@ -107,12 +107,17 @@ impl Rewriting<'_> {
         while index < self.tokens.len() {
             let general = ["stuff", "things", "items", "belongings", "junk", "bits", "objects", "everything"]
                 .contains(&self.at(index - 1));
+            let most =
+                self.at(index - 1).ends_with("est") && self.lexicon.noun(&[self.at(index - 1)]).is_none();
             let typed = self.tokens[index].typed.clone();
-            if general && self.at(index) == "," && typed == "(" {
+            let set_apart = typed != ":" && self.is_opening(index);
+            if (general || most) && self.at(index) == "," && set_apart {
                 let closes = (index + 1..self.tokens.len()).find(|&at| self.is_closing(at, &typed));
                 if let Some(closes) = closes {
-                    let first = index - 1;
-                    let first = first - usize::from(first > 0 && is_determiner(self.at(first - 1)));
+                    let back = (index.saturating_sub(4)..index - 1).rev();
+                    let article =
+                        back.take_while(|&at| !self.is_mark(at)).find(|&at| is_determiner(self.at(at)));
+                    let first = article.unwrap_or(index - 1);
                     self.say(closes, closes + 1, &[]);
                     self.say(first, index + 1, &[]);
                 }
@@ -166,6 +171,26 @@ impl Rewriting<'_> {
                 && self.is_base_verb(index + 1)
             {
                 self.say(index, index + 1, &[]);
+            } else if self.starts(index, &["next", "to", "each", "other"])
+                || self.starts(index, &["side", "by", "side"])
+            {
+                let comma = usize::from(index > 0 && self.at(index - 1) == ",");
+                let length = if self.at(index) == "side" { 3 } else { 4 };
+                self.say(index - comma, index + length, &[]);
+                index -= comma;
+            } else if self.at(index) == "included"
+                && self.noun_before(index).is_some()
+                && self.mark_at(index + 1)
+            {
+                let start = (0..index).rev().find(|&at| self.mark_at(at)).unwrap_or(0);
+                self.say(start, index + 1, &[]);
+                index = start;
+            } else if ["everything", "all"].contains(&self.at(index)) && self.at(index + 1) == "that" {
+                let is = usize::from(["is", "are"].contains(&self.at(index + 2)));
+                let state = ["on", "open", "running", "off"].contains(&self.at(index + 2 + is));
+                if state && self.is_mark(index + 3 + is) {
+                    self.say(index, index + 3 + is, &["everything"]);
+                }
             } else if self.at(index) == "whereas" {
                 self.say(index, index + 1, &["and"]);
             } else if self.starts(index, &["by", "the", "time"]) {
