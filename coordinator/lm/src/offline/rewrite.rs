@@ -6,6 +6,8 @@ use super::syntax::is_determiner;
 use super::text::Token;
 
 mod arrangement;
+mod fragment;
+mod members;
 mod saying;
 mod topic;
 mod wishing;
@@ -23,6 +25,10 @@ const SHALL: [&str; 14] = [
 pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
+    text.loose_words();
+    text.additions();
+    text.states_behind_marks();
+    text.places_in_need();
     text.questions();
     text.needs();
     text.ready();
@@ -39,6 +45,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.needless_conditions();
     text.exclusions();
     text.conditions();
+    text.alternatives();
     text.containing();
     text.what_was_done();
     text.orders_in_relatives();
@@ -419,56 +426,6 @@ impl Rewriting<'_> {
         let at = if self.at(index - 1) == "and" { index.saturating_sub(2) } else { index - 1 };
         if self.at(at) == "." {
             self.say(at, at + 1, &[","]);
-        }
-    }
-
-    /// "the valuables (the watch and the keys) go in the safe", "the glasses, namely the cup and the mug, go …": no
-    /// mark between a subject and its verb.
-    fn named_members(&mut self) {
-        let mut named = false;
-        let mut dashes = 0;
-        let mut index = 0;
-        while index < self.tokens.len() {
-            let namely = if self.starts(index, &["that", "is"])
-                && is_determiner(self.at(index + 2))
-                && index > 0
-                && self.at(index - 1) == ","
-            {
-                2
-            } else {
-                let means = self.at(index) == "which" && ["means", "mean"].contains(&self.at(index + 1));
-                usize::from(index > 0 && ["namely", "ie", "meaning", "viz"].contains(&self.at(index)))
-                    + 2 * usize::from(index > 0 && means)
-            };
-            if namely > 0 {
-                // What is named is all that is meant: "the dishes, namely the pan and the pot, …" is no plate.
-                let comma = usize::from(self.at(index + namely) == ",");
-                let run = (index.saturating_sub(9)..index.saturating_sub(1))
-                    .rev()
-                    .take_while(|&at| !self.is_mark(at) && self.at(at) != "and");
-                let run: Vec<usize> = run.collect();
-                let whole = |at: &usize| ["anything", "everything"].contains(&self.at(*at));
-                let class = run.iter().copied().find(whole);
-                let class = class.or(run.into_iter().rfind(|&at| is_determiner(self.at(at))));
-                let from = class.filter(|_| self.at(index - 1) == ",").unwrap_or(index);
-                self.say(from, index + namely + comma, &[]);
-                index = from;
-                named = true;
-            }
-            let mark = self.at(index).to_owned();
-            let typed = self.tokens.get(index).map_or("", |token| token.typed.as_str());
-            let dash = mark == "," && ["-", "\u{2013}", "\u{2014}"].contains(&typed);
-            let closing = mark == "," && (typed == ")" || dash && dashes % 2 == 1 || named);
-            dashes += usize::from(dash);
-            let next = self.at(index + 1);
-            if closing && (is_going(next) || SHALL.contains(&next)) {
-                self.say(index, index + 1, &[]);
-                named = false;
-            }
-            if mark == "." {
-                (named, dashes) = (false, 0);
-            }
-            index += 1;
         }
     }
 }

@@ -383,6 +383,18 @@ impl Rewriting<'_> {
         }
     }
 
+    /// ", if it is dirty, wash it, otherwise …": a sentence of its own.
+    pub(super) fn alternatives(&mut self) {
+        for index in 1..self.tokens.len() {
+            let closes = self.next_mark(index, &[",", "."]);
+            let done = self.next_mark(closes + 1, &[",", "."]);
+            let otherwise = ["otherwise", "else"].contains(&self.at(done + 1));
+            if self.at(index) == "if" && self.at(index - 1) == "," && otherwise {
+                self.say(index - 1, index, &["."]);
+            }
+        }
+    }
+
     /// "unless the fridge is closed": if it is not.
     pub(super) fn exclusions(&mut self) {
         let mut index = 0;

@@ -5,7 +5,11 @@ use super::{LONGEST_ASIDE, Rewriting};
 use crate::offline::syntax::{is_determiner, preposition};
 
 /// "I could do with …": I want it.
-const LONGINGS: [&[&str]; 12] = [
+const LONGINGS: [&[&str]; 16] = [
+    &["id", "prefer"],
+    &["i", "would", "prefer"],
+    &["id", "rather", "have"],
+    &["i", "would", "rather", "have"],
     &["id", "kill", "for"],
     &["i", "would", "kill", "for"],
     &["i", "could", "kill", "for"],
