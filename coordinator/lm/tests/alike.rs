@@ -84,6 +84,25 @@ const PAIRS: &[(&str, &str, &str)] = &[
         "you'll find the cup on the counter; put it in the sink and do wash the plate",
     ),
     (
+        "FloorPlan6",
+        "wash the apple, the egg and the tomato, put the apple and the egg in the bowl and the tomato on the plate",
+        "wash the apple, the egg and the tomato, put the first two in the bowl and the last one on the plate",
+    ),
+    (
+        "FloorPlan6",
+        "slice the bread and the tomato and put them on the plate",
+        "slice the bread and the tomato and put everything on the plate",
+    ),
+    ("FloorPlan6", "turn off the toaster", "the toaster: off"),
+    ("FloorPlan6", "put a plate and a cup on the counter", "the counter needs a plate and a cup on it"),
+    ("FloorPlan6", "wash the plate and the cup", "Wash the plate. Also the cup."),
+    ("FloorPlan6", "put the spoon in the drawer", "could the spoon be put in the drawer?"),
+    (
+        "FloorPlan6",
+        "wash the plate and put it in the cabinet",
+        "Guests are coming! Wash the plate and put it in the cabinet",
+    ),
+    (
         "FloorPlan304",
         "put the book, the pen and the pencil on the desk, put the pen and the pencil in the mug",
         "put the book, the pen and the pencil on the desk, the latter two in the mug",

@@ -9,6 +9,7 @@ mod arrangement;
 mod fragment;
 mod members;
 mod saying;
+mod speech;
 mod topic;
 mod wishing;
 
@@ -25,6 +26,12 @@ const SHALL: [&str; 14] = [
 pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
+    text.corrections();
+    text.empty_words();
+    text.small_verbs();
+    text.first_and_last();
+    text.places_apart();
+    text.reasons_before_so();
     text.loose_words();
     text.additions();
     text.states_behind_marks();

@@ -120,6 +120,14 @@ impl<'a> Parser<'a> {
             let to_somewhere = next.is_some_and(|next| preposition(&[next]).is_some());
             return first || determined || to_somewhere && noun.is_none();
         }
+        // "watch, keys and card go in the box": things, not something to be done.
+        let listed = matches!(next, Some("," | "and"))
+            && noun
+                .as_ref()
+                .is_some_and(|(noun, _, _)| noun.word != "water" && self.has_affordance(noun, "pickupable"));
+        if listed {
+            return false;
+        }
         if noun.is_some() {
             // A word that is noun and verb is a verb when something to do it to follows at once.
             return first || determined || self.noun_begins(length);

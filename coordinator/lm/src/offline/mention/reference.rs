@@ -23,6 +23,14 @@ impl Discourse<'_> {
     }
 
     pub(super) fn everything(&mut self, phrase: &Phrase, at: &[Place], wants: Option<&str>) -> Vec<usize> {
+        let before = if ["everything", "all"].contains(&phrase.text.as_str()) && at.is_empty() {
+            self.gathered(wants)
+        } else {
+            Vec::new()
+        };
+        if before.len() > 1 && wants == Some("pickupable") {
+            return before;
+        }
         let fixed = wants.filter(|wants| ["openable", "toggleable"].contains(wants));
         let places: Vec<&Place> = phrase.at.iter().chain(at).collect();
         let except = self.exceptions(&phrase.except);
@@ -64,30 +72,45 @@ impl Discourse<'_> {
     /// "the former", "the latter two": the first or the last of those spoken of together.
     pub(super) fn some_of_these(&mut self, phrase: &Phrase, first: bool) -> Vec<usize> {
         let count = if let Quantity::Count(count) = phrase.quantity { count } else { 1 };
-        let group = self.spoken.iter().rev().map(|spoken| &spoken.objects).find(|group| group.len() > count);
-        let Some(group) = group else {
+        let nearest =
+            self.spoken.iter().rev().map(|spoken| &spoken.objects).find(|group| group.len() > count);
+        // "the former two … the latter": of the same.
+        let whole = |part: &Vec<usize>| {
+            let groups = self.spoken.iter().map(|spoken| &spoken.objects);
+            groups.max_by_key(|group| usize::from(part.iter().all(|e| group.contains(e))) * group.len())
+        };
+        let group = nearest.and_then(whole);
+        let gathered = self.gathered(None);
+        let group = group.unwrap_or(&gathered);
+        if group.len() <= count {
             self.problem("it is not said which of them is meant".to_owned(), 0.3);
             return Vec::new();
-        };
+        }
         if first { group[..count].to_vec() } else { group[group.len() - count..].to_vec() }
     }
 
     /// "all of them", "each": what was spoken of since something was put somewhere, or in the clause that put it.
     pub(super) fn all_of_them(&mut self, wants: Option<&str>) -> Vec<usize> {
+        let found = self.gathered(wants);
+        if found.len() > 1 { found } else { self.pronoun(true, wants) }
+    }
+
+    /// What was spoken of since something was put somewhere, or in the clause that put it.
+    fn gathered(&self, wants: Option<&str>) -> Vec<usize> {
         let mut found: Vec<usize> = Vec::new();
         for spoken in self.spoken.iter().rev() {
+            if spoken.placed && !found.is_empty() {
+                break;
+            }
             let able = |&entity: &usize| {
                 wants.is_none_or(|wants| self.affords(self.entities[entity].kind(), wants))
                     && !found.contains(&entity)
             };
-            if spoken.placed && !found.is_empty() {
-                break;
-            }
             let able: Vec<usize> = spoken.objects.iter().copied().filter(able).collect();
             found.extend(able);
         }
         found.sort_unstable();
-        if found.len() > 1 { found } else { self.pronoun(true, wants) }
+        found
     }
 
     /// "put it all on the table": whatever was spoken of and can be carried.

@@ -38,7 +38,8 @@ impl Rewriting<'_> {
                     .find(|&at| preposition(&[self.at(at)]).is_some() && self.at(at) != "of");
                 // "put all the papers in the bin, namely the news": the news goes there.
                 let end = self.next_mark(index + namely + comma, &["."]);
-                if let Some(place) = place.filter(|_| from < index && end >= self.tokens.len() - 1) {
+                let goes = (index..end).any(|at| is_going(self.at(at)) || SHALL.contains(&self.at(at)));
+                if let Some(place) = place.filter(|_| !goes && from < index && end >= self.tokens.len() - 1) {
                     let list: Vec<String> =
                         (index + namely + comma..end).map(|at| self.at(at).to_owned()).collect();
                     let list: Vec<&str> = list.iter().map(String::as_str).collect();

@@ -137,3 +137,25 @@ fn what_is_only_spoken_of_asks_for_nothing() {
         assert_eq!(plain(said), meant, "{said}");
     }
 }
+
+#[test]
+fn what_is_corrected_or_left_open_is_put_plainly() {
+    for (said, meant) in [
+        ("put the bear... I mean the statue, on the bed", "put the statue on the bed"),
+        ("slice the egg, it doesn't matter which, and go", "slice the egg , and go"),
+        (
+            "put the first two in the bowl and the last one on the plate",
+            "put the former two in the bowl and the latter on the plate",
+        ),
+        ("the stove should then be on", "the stove should be on"),
+        ("the cups should be taken out and put on the desk", "the cups should be put on the desk"),
+        ("bring it to me on the plate", "bring it on the plate"),
+        ("either slice the apple or the bread", "slice the apple or the bread"),
+        ("fold the cloth", "take the cloth"),
+        ("put the phone on the desk, next to the clock", "put the phone on the desk next to the clock"),
+        ("put the plate away and on the plate lay an egg", "put the plate away . on the plate lay an egg"),
+        ("shelves are for books, so move the phone to the desk", "move the phone to the desk"),
+    ] {
+        assert_eq!(plain(said), meant, "{said}");
+    }
+}

@@ -74,6 +74,14 @@ impl Rewriting<'_> {
         while index < self.tokens.len() {
             let length = match (self.at(index), self.at(index + 1), self.at(index + 2)) {
                 ("the", "following", "things" | "items" | "objects") => 3,
+                (number, "things" | "items" | "objects", _)
+                    if (preposition(&[self.at(index + 2)]).is_some_and(|_| self.at(index + 2) != "to")
+                        || self.is_opening(index + 2))
+                        && (["several", "some", "few", "these"].contains(&number)
+                            || crate::offline::inflect::number(number).is_some()) =>
+                {
+                    2
+                }
                 ("the", "following", _) | ("these", "things" | "items" | "objects", _) => 2,
                 ("these", next, _)
                     if self.mark_at(index + 1) || preposition(&[next]).is_some() || is_going(next) =>
