@@ -117,3 +117,12 @@ pub fn only_tells(index: usize, clauses: &[Clause<'_>], lexicon: &Lexicon, scene
         && !clause.objects.iter().any(is_here)
         && others.count() > 1
 }
+
+/// "… and put it away": what is only done where what is said before it is done.
+pub fn goes_on_about_it(clause: &Clause<'_>) -> bool {
+    let it = |phrase: &syntax::Phrase| matches!(phrase.head, syntax::Head::Pronoun { .. });
+    clause.words.first().is_some_and(|word| word == "and")
+        && !clause.objects.is_empty()
+        && clause.objects.iter().all(it)
+        && !clause.says_any(&["otherwise", "else"])
+}

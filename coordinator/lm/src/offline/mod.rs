@@ -35,7 +35,9 @@ use effect::{Change, Fact, Interpreter};
 use emit::{Emitter, Stay};
 pub use gloss::Gloss;
 use lexicon::Lexicon;
-use literal::{is_concrete, is_mere_step, is_weak, only_goes, only_tells, says_state, says_where};
+use literal::{
+    goes_on_about_it, is_concrete, is_mere_step, is_weak, only_goes, only_tells, says_state, says_where,
+};
 use mention::{Discourse, Spoken};
 use scene::Scene;
 use snapshot::Snapshot;
@@ -273,6 +275,10 @@ fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Readi
                     .discourse
                     .assume(format!("{text}, so nothing is done for \"{}\"", next.text), 1.0);
                 index += 1;
+                // "… wash it and put it away": neither.
+                while clauses.get(index + 1).is_some_and(goes_on_about_it) {
+                    index += 1;
+                }
             }
         } else {
             one_clause(&mut interpreter, index, &clauses, lexicon);

@@ -28,6 +28,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.contractions();
     text.corrections();
     text.empty_words();
+    text.roundabout_wishes();
     text.small_verbs();
     text.first_and_last();
     text.places_apart();
@@ -208,7 +209,7 @@ impl Rewriting<'_> {
             let (before, word, next) = (self.at(index - 1), self.at(index), self.at(index + 1));
             let all = before == "they" && ["all", "both"].contains(&word)
                 || ["all", "both", "each"].contains(&word)
-                    && ["need", "needs", "should", "must", "have", "has"].contains(&next)
+                    && (["need", "needs", "should", "must", "have", "has"].contains(&next) || is_going(next))
                     && self.noun_before(index).is_some();
             let same = before == "the" && word == "same" && self.lexicon.noun(&[next]).is_some();
             let out = ["stay", "stays", "left", "kept", "stand"].contains(&before)

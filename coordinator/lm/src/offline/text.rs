@@ -11,7 +11,7 @@ pub const LONGEST_INSTRUCTION: usize = 4096;
 pub const POSSESSIVE: &str = "'s";
 
 /// Words whose "'s" is "is" or "us".
-const CONTRACTED: [&str; 9] = ["it", "that", "there", "let", "what", "here", "he", "she", "who"];
+const CONTRACTED: [&str; 10] = ["it", "that", "there", "let", "what", "where", "here", "he", "she", "who"];
 
 /// A word or a mark.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -136,7 +136,7 @@ impl Parser<'_> {
         let poured = things.iter().all(|phrase| phrase.liquid().is_some())
             && preposition(&ahead.rest()).is_some_and(|(relation, _)| relation == Relation::In)
             && ahead.word_at(1) != Some("it")
-            && self.into_a_vessel(&ahead);
+            && self.goes_into_a_vessel(&ahead);
         if poured {
             return true;
         }
@@ -151,7 +151,7 @@ impl Parser<'_> {
     }
 
     /// "(with water) in the cup", but not "(the kettle with water) on the counter".
-    fn into_a_vessel(&self, ahead: &Self) -> bool {
+    fn goes_into_a_vessel(&self, ahead: &Self) -> bool {
         let mut place = ahead.ahead(preposition(&ahead.rest()).map_or(0, |(_, length)| length));
         let phrase = place.phrase(0);
         phrase.is_some_and(|phrase| match &phrase.head {

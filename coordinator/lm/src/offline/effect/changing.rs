@@ -107,7 +107,14 @@ impl<'a> Interpreter<'_, 'a> {
         let phrases: Vec<Phrase> = with.chain(places.map(|place| &place.phrase)).cloned().collect();
         for phrase in phrases {
             let held = self.discourse.mention(&phrase, &[], Some("pickupable"));
-            self.take(&held);
+            // "turn on the TV with the remote": a tool of its own.
+            let tool = |&e: &usize| self.discourse.entities[e].kind() == "RemoteControl";
+            let screen = clause.objects.iter().any(|phrase| {
+                matches!(&phrase.head, Head::Noun(noun) if noun.kinds.first().is_some_and(|kind| kind == "Television"))
+            });
+            if !(screen && held.iter().all(tool)) {
+                self.take(&held);
+            }
         }
     }
 

@@ -203,6 +203,11 @@ impl Discourse<'_> {
                 }
             }
             all.sort_unstable();
+            // "put them in the sink, turn on the tap and wash them": not the tap.
+            let carried = |e: &usize| self.affords(self.entities[*e].kind(), "pickupable");
+            if wants.is_none() && all.iter().filter(|e| carried(e)).count() > 1 {
+                all.retain(carried);
+            }
             if !all.is_empty() {
                 return all;
             }

@@ -40,6 +40,13 @@ impl Rewriting<'_> {
                 && ["you", "i", "we", "they"].contains(&who)
             {
                 self.say(index, index + 1, &[who, "have"]);
+            } else if word == "that"
+                && self.tokens[index].typed.to_lowercase().ends_with("s")
+                && self.noun_before(index).is_some()
+                && preposition(&[self.at(index + 1)]).is_some()
+            {
+                // "the cup that's on the desk"
+                self.say(index, index + 1, &["that", "is"]);
             } else if word == "having" && done && (index == 0 || self.is_mark(index - 1)) {
                 self.say(index, index + 1, &["once", "you", "have"]);
             }
@@ -84,7 +91,14 @@ impl Rewriting<'_> {
             {
                 self.say(index, index + 2, &["should"]);
             }
-            if self.at(index) == "to"
+            if self.at(index) == "and"
+                && resting(self.at(index + 1))
+                && preposition(&[self.at(index + 2)]).is_some()
+                && self.lexicon.adjective(&[self.at(index - 1)]).is_some()
+            {
+                // "must be clean and stand on the shelf"
+                self.say(index + 1, index + 2, &["they", "should", "be"]);
+            } else if self.at(index) == "to"
                 && resting(self.at(index + 1))
                 && preposition(&[self.at(index + 2)]).is_some()
             {

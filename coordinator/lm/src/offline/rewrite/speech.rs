@@ -5,7 +5,12 @@ use super::{LONGEST_ASIDE, Rewriting, SHALL};
 use crate::offline::syntax::{is_determiner, preposition};
 
 /// Said of what comes before, and of no consequence.
-const EMPTY: [&[&str]; 23] = [
+const EMPTY: [&[&str]; 28] = [
+    &["upside", "down"],
+    &["while", "youre", "there"],
+    &["while", "you", "are", "there"],
+    &["while", "youre", "about", "it"],
+    &["while", "you", "are", "about", "it"],
     &["i", "dont", "care", "which"],
     &["it", "doesnt", "matter", "which"],
     &["no", "matter", "which"],
@@ -57,6 +62,59 @@ impl Rewriting<'_> {
                 continue;
             }
             index += 1;
+        }
+    }
+
+    /// "it would be nice if the cup was on the desk", "all cups have water in them", "…, but the mug shouldn't"
+    pub(super) fn roundabout_wishes(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let nice = (self.starts(index, &["it", "would", "be"]) || self.starts(index, &["itd", "be"]))
+                .then(|| (index + 2..index + 6).find(|&at| self.at(at) == "if"))
+                .flatten()
+                .filter(|&at| is_determiner(self.at(at + 1)));
+            if let Some(condition) = nice {
+                let end = self.next_mark(condition, &["."]);
+                for at in (condition..end).rev() {
+                    if ["was", "were", "is", "are"].contains(&self.at(at)) {
+                        self.say(at, at + 1, &["should", "be"]);
+                    }
+                }
+                self.say(index, condition + 1, &[]);
+            }
+            let liquid = ["water", "coffee", "wine"].contains(&self.at(index + 1));
+            if ["have", "has"].contains(&self.at(index))
+                && liquid
+                && self.at(index + 2) == "in"
+                && ["it", "them"].contains(&self.at(index + 3))
+                && self.noun_before(index).is_some()
+            {
+                let liquid = self.at(index + 1).to_owned();
+                self.say(index, index + 4, &["should", "be", "filled", "with", &liquid]);
+            }
+            self.denied_of_another(index);
+            let each = self.at(index) == ","
+                && self.at(index + 1) == "one"
+                && ["on", "in"].contains(&self.at(index + 2))
+                && self.at(index + 3) == "each";
+            if each {
+                let end = self.next_mark(index + 1, &[",", "."]);
+                self.say(index, end, &[]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "…, but the mug should not; it goes …": the mug is spoken of.
+    fn denied_of_another(&mut self, index: usize) {
+        if !["but", "and"].contains(&self.at(index)) || !is_determiner(self.at(index + 1)) {
+            return;
+        }
+        let not =
+            (index + 3..index + 6).find(|&at| self.starts(at, &["should", "not"]) && self.is_mark(at + 2));
+        if let Some(not) = not.filter(|&not| self.noun_before(not).is_some()) {
+            self.say(not, not + 2, &[]);
+            self.say(index, index + 1, &["."]);
         }
     }
 

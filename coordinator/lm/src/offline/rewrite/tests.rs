@@ -152,6 +152,13 @@ fn what_is_corrected_or_left_open_is_put_plainly() {
         ("bring it to me on the plate", "bring it on the plate"),
         ("either slice the apple or the bread", "slice the apple or the bread"),
         ("fold the cloth", "take the cloth"),
+        ("it would be nice if the cup was on the desk", "the cup should be on the desk"),
+        ("all cups have water in them", "all cups should be filled with water"),
+        (
+            "bin the egg but the apple shouldn't; it goes in the bowl",
+            "bin the egg . the apple . it goes in the bowl",
+        ),
+        ("wash the cup that's on the desk", "wash the cup that is on the desk"),
         ("put the phone on the desk, next to the clock", "put the phone on the desk next to the clock"),
         ("put the plate away and on the plate lay an egg", "put the plate away . on the plate lay an egg"),
         ("shelves are for books, so move the phone to the desk", "move the phone to the desk"),
