@@ -93,6 +93,33 @@ const PAIRS: &[(&str, &str, &str)] = &[
         "slice the bread and the tomato and put them on the plate",
         "slice the bread and the tomato and put everything on the plate",
     ),
+    (
+        "FloorPlan6",
+        "wash the cup and the mug, fill the cup with water",
+        "wash the cup and the mug, fill one of them with water",
+    ),
+    (
+        "FloorPlan6",
+        "put the plate and the cup on the counter, the bowl and the mug in the sink",
+        "put the plate and the cup on the counter and the rest of the dishes in the sink",
+    ),
+    ("FloorPlan6", "wash the plate, the bowl, the cup and the mug", "wash every dish"),
+    (
+        "FloorPlan6",
+        "slice the bread and put it on the plate",
+        "take two slices of bread and put them on the plate",
+    ),
+    ("FloorPlan6", "wash the tomato", "wash the tomato that sits in the sink"),
+    (
+        "FloorPlan304",
+        "put the book and the pen on the desk",
+        "prepare the desk: put the book and the pen on it",
+    ),
+    (
+        "FloorPlan304",
+        "wash the mug and put it on the bed",
+        "if there is a mug on the desk, wash it and put it on the bed",
+    ),
     ("FloorPlan6", "turn off the toaster", "the toaster: off"),
     ("FloorPlan6", "put a plate and a cup on the counter", "the counter needs a plate and a cup on it"),
     ("FloorPlan6", "wash the plate and the cup", "Wash the plate. Also the cup."),

@@ -309,7 +309,10 @@ fn lasts(facts: &[Fact], index: usize, discourse: &Discourse<'_>) -> bool {
     let fact = &facts[index];
     let mut ends_cold = false;
     for (i, other) in facts.iter().enumerate() {
-        if other.entity != fact.entity {
+        let (mine, its) = (&discourse.entities[fact.entity], &discourse.entities[other.entity]);
+        // Named twice, in other words, it is one thing where there is only one.
+        let only_one = mine.kind() == its.kind() && discourse.scene.of_kind(mine.kind()).len() == 1;
+        if other.entity != fact.entity && !only_one {
             continue;
         }
         let later = i > index;

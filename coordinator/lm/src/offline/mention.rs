@@ -121,6 +121,9 @@ impl<'a> Discourse<'a> {
             Head::Pronoun { .. } if phrase.other || matches!(phrase.quantity, Quantity::Count(_)) => {
                 self.some_of_them(phrase, wants)
             }
+            Head::Pronoun { plural: true } if phrase.text.starts_with("one of") => {
+                self.one_of_them(wants).into_iter().collect()
+            }
             Head::Pronoun { plural: true } if ["each", "all"].contains(&first_word(&phrase.text)) => {
                 self.all_of_them(wants)
             }
@@ -234,7 +237,11 @@ impl<'a> Discourse<'a> {
         }
         // "every light" means all that "lights" means.
         let lexicon = self.lexicon;
-        let all = lexicon.noun(&[&super::lexicon::squash(&format!("{}s", noun.word))]);
+        let plural = |ending: &str| super::lexicon::squash(&format!("{}{ending}", noun.word));
+        let all = ["s", "es"]
+            .iter()
+            .filter_map(|ending| lexicon.noun(&[&plural(ending)]))
+            .find(|(noun, _)| noun.class);
         let noun = match all {
             Some((all, _)) if phrase.quantity == Quantity::All && all.class => all,
             _ => noun,
@@ -271,6 +278,10 @@ impl<'a> Discourse<'a> {
         }
         let except = self.exceptions(&phrase.except);
         kinds.retain(|kind| !except.contains(kind.as_str()));
+        if noun.class && phrase.other {
+            // "the rest of the dishes": without those spoken of.
+            kinds.retain(|kind| !self.entities.iter().any(|entity| entity.kind() == kind.as_str()));
+        }
         if noun.class {
             return self.class(noun, &kinds, phrase, at);
         }

@@ -150,6 +150,27 @@ impl Rewriting<'_> {
         }
     }
 
+    /// "Prepare the desk: put the pen on it": "it" is what the heading names.
+    fn name_it(&mut self, start: usize, colon: usize, end: usize) {
+        let first = (start..colon).find(|&at| is_determiner(self.at(at)));
+        let noun = first.and_then(|first| {
+            let last = (first + 2..=colon).find(|&at| self.noun_before(at).is_some())?;
+            Some((first..last).map(|at| self.at(at).to_owned()).collect::<Vec<_>>())
+        });
+        let it = (colon + 1..end).find(|&at| self.at(at) == "it");
+        // "boil the egg: fill the pot, put the egg in it": in what came in between.
+        let ordered = |at: usize| {
+            [",", "and"].contains(&self.at(at)) && !self.lexicon.verbs(self.at(at + 1)).is_empty()
+        };
+        let placed = it.filter(|&it| {
+            ["on", "in", "onto", "into"].contains(&self.at(it - 1)) && !(colon + 1..it).any(ordered)
+        });
+        if let (Some(noun), Some(it)) = (noun, placed) {
+            let noun: Vec<&str> = noun.iter().map(String::as_str).collect();
+            self.say(it, it + 1, &noun);
+        }
+    }
+
     /// "Clear the table: the mug goes …": what is said behind the colon says how.
     fn headings(&mut self) {
         const WEAK: [&str; 12] = [
@@ -191,6 +212,7 @@ impl Rewriting<'_> {
             });
             let listed = WEAK.contains(&first.as_str()) && placed;
             if colon && weak && index - start <= LONGEST_ASIDE && (told || ordered || listed) {
+                self.name_it(start, index, end);
                 self.say(start, index + 1, &[]);
                 index = start;
                 continue;

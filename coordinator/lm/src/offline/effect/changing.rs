@@ -168,7 +168,15 @@ impl<'a> Interpreter<'_, 'a> {
         if said.is_none() && solid {
             return Spoken { objects, ..Spoken::default() };
         }
-        let liquid = said.unwrap_or_else(|| {
+        // "make coffee and pour it into the mug"
+        let poured = clause.objects.iter().any(|phrase| matches!(phrase.head, Head::Pronoun { .. }));
+        let brewed = self.facts.iter().rev().filter(|_| poured).find_map(|fact| match &fact.change {
+            Change::State(property, PropertyValue::Word(liquid)) if property == "fillLiquid" => {
+                Some(liquid.clone())
+            }
+            _ => None,
+        });
+        let liquid = said.or(brewed.filter(|_| verb.act == Act::Pour)).unwrap_or_else(|| {
             self.discourse.assume("it is filled with water".to_owned(), 0.98);
             "water".to_owned()
         });

@@ -95,6 +95,13 @@ impl Discourse<'_> {
         if found.len() > 1 { found } else { self.pronoun(true, wants) }
     }
 
+    /// "one of them": one that the verb can be done to.
+    pub(super) fn one_of_them(&mut self, wants: Option<&str>) -> Option<usize> {
+        let all = self.all_of_them(wants);
+        let able = |&&e: &&usize| wants.is_none_or(|wants| self.affords(self.entities[e].kind(), wants));
+        all.iter().find(able).or(all.first()).copied()
+    }
+
     /// What was spoken of since something was put somewhere, or in the clause that put it.
     fn gathered(&self, wants: Option<&str>) -> Vec<usize> {
         let mut found: Vec<usize> = Vec::new();

@@ -117,6 +117,11 @@ impl Rewriting<'_> {
                 }
             } else if self.starts(index, &["while", "youre", "at", "it"]) {
                 self.say(index, index + 4, &[]);
+            } else if index > 1
+                && self.starts(index, &["a", "little"])
+                && (self.is_mark(index + 2) || ["for", "before", "and", "so"].contains(&self.at(index + 2)))
+            {
+                self.say(index, index + 2, &[]);
             } else if self.starts(index, &["a", "different", "one"]) {
                 self.say(index, index + 2, &["another"]);
             } else if ["turn", "switch", "shut"].contains(&self.at(index)) && self.at(index + 1) == "of" {

@@ -171,6 +171,13 @@ impl Rewriting<'_> {
             } else if ["everything", "anything"].contains(&self.at(index)) && self.at(index + 1) == "else" {
                 self.say(index, index + 2, &["the", "rest"]);
             } else if ["that", "which"].contains(&self.at(index))
+                && ["sits", "stands", "lies", "rests", "hangs", "sit", "stand", "lie"]
+                    .contains(&self.at(index + 1))
+                && preposition(&[self.at(index + 2)]).is_some()
+            {
+                // "the tomato that sits on the counter"
+                self.say(index + 1, index + 2, &["is"]);
+            } else if ["that", "which"].contains(&self.at(index))
                 && ["is", "are"].contains(&self.at(index + 1))
                 && LYING.contains(&self.at(index + 2))
                 && preposition(&[self.at(index + 3)]).is_some()
