@@ -48,6 +48,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.turns_of_phrase();
     text.first_and_second();
     text.with_something_somewhere();
+    text.where_one_finds_it();
     text.quantities();
     text.whereabouts();
     text.needless_conditions();

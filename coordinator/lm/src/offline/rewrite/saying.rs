@@ -265,6 +265,27 @@ impl Rewriting<'_> {
         }
     }
 
+    /// "the bread that you find on the counter", "the cup I left in the sink": that is there.
+    pub(super) fn where_one_finds_it(&mut self) {
+        const SEEN: [&str; 12] =
+            ["find", "found", "see", "saw", "left", "put", "keep", "kept", "have", "had", "placed", "stored"];
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let that = usize::from(["that", "which"].contains(&self.at(index)));
+            let person = ["you", "i", "we", "they"].contains(&self.at(index + that));
+            let auxiliary = usize::from(["will", "can", "have", "had"].contains(&self.at(index + that + 1)));
+            let verb = index + that + 1 + auxiliary;
+            if person
+                && SEEN.contains(&self.at(verb))
+                && preposition(&[self.at(verb + 1)]).is_some()
+                && self.noun_before(index).is_some()
+            {
+                self.say(index, verb + 1, &["that", "is"]);
+            }
+            index += 1;
+        }
+    }
+
     /// "the fridge should contain the egg and the milk": those should be in it.
     pub(super) fn containing(&mut self) {
         let mut index = 1;

@@ -62,6 +62,8 @@ fn what_is_said_in_other_ways_is_put_plainly() {
         ("close the box unless it's closed already", "close the box"),
         ("unless the box is open, open it", "if the box is not open , open it"),
         ("put everything else in the box", "put the rest in the box"),
+        ("slice the bread that you find on the desk", "slice the bread that is on the desk"),
+        ("wash the cup I left in the sink", "wash the cup that is in the sink"),
         ("put the mug, full of water, on the desk", "put the mug full of water on the desk"),
         ("the fridge must contain the egg and the milk", "the egg and the milk should be in the fridge"),
         ("cut the egg and put everything you cut in the bowl", "cut the egg and put all of them in the bowl"),
