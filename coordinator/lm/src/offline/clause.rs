@@ -194,6 +194,8 @@ impl<'a> Parser<'a> {
             && clause.complement.is_empty()
             && let Some(previous) = previous
             && (!opening.sentence || goes_somewhere(&clause))
+            && !(clause.places.is_empty() && self.is_told(start))
+            && !self.is_wished(start)
             && (!clause.objects.is_empty() || goes_somewhere(&clause) && places(previous))
         {
             if only_pronouns(previous) && goes_somewhere(&clause) && !places(previous) {
@@ -226,33 +228,10 @@ impl<'a> Parser<'a> {
         (!clause.text.is_empty()).then_some(clause)
     }
 
-    /// "apple in the fridge", "the fork goes in the drawer": to be put there.
-    fn understood_verb(&self, clause: &mut Clause<'a>, start: usize) {
-        let goes = |word: &String| is_going(word);
-        let said = self.words.get(start..self.position).unwrap_or_default();
-        let told = said.iter().any(|word| ["is", "are", "was", "were"].contains(&word.as_str()));
-        let going = !clause.unknown.is_empty();
-        let pronoun = |phrase: &Phrase| going && matches!(phrase.head, Head::Pronoun { .. });
-        let moved = clause.objects.iter().all(|phrase| self.is_movable(phrase) || pronoun(phrase))
-            && !clause.objects.is_empty();
-        let with = start.checked_sub(1).is_some_and(|at| self.words[at] == "with");
-        let beside = (going || with) && clause.places.iter().any(|place| place.relation == Relation::Near);
-        if clause.verbs.is_empty()
-            && clause.unknown.iter().all(goes)
-            && !told
-            && !is_denied(said)
-            && moved
-            && (goes_somewhere(clause) || beside)
-        {
-            clause.verbs = self.putting();
-            clause.unknown.clear();
-        }
-    }
-
     /// Objects, places, particles and complements, up to the next clause.
     fn arguments(&mut self, clause: &mut Clause<'a>, start: usize) {
         while let Some(word) = self.peek() {
-            if self.purpose(clause) {
+            if self.purpose(clause) || self.but_so(clause) {
                 continue;
             }
             if self.is_boundary(clause, start) {
@@ -440,6 +419,14 @@ impl<'a> Parser<'a> {
             ahead.position += length;
             ahead.phrases(0);
         }
+        // "… and the fork from the drawer to the table"
+        if let Some((Relation::From, length)) = preposition(&ahead.rest()) {
+            let start = ahead.position;
+            ahead.position += length;
+            if ahead.phrase(0).is_none() {
+                ahead.position = start;
+            }
+        }
         preposition(&ahead.rest())
             .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To | Relation::Near))
             || ahead.peek().is_some_and(|word| ["should", "must", "needs", "need"].contains(&word))
@@ -454,4 +441,5 @@ mod follows;
 mod opening;
 mod place;
 mod shape;
+mod understood;
 mod verb;

@@ -114,6 +114,11 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 }
                 Act::Set if liquid && self.runs_into(clause, verb) => self.fill(clause, verb),
                 _ if is_a_trip(clause, next) => self.trip(clause),
+                Act::Place | Act::Pour
+                    if liquid && clause.places.is_empty() && self.vessel_spoken_of().is_some() =>
+                {
+                    self.fill_vessel_spoken_of(clause)
+                }
                 Act::Place | Act::Hold | Act::Keep
                     if liquid && clause.places.iter().any(|place| self.runs_in(place)) =>
                 {
@@ -156,13 +161,25 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         phrases.iter().flat_map(|phrase| self.discourse.mention(phrase, &[], None)).collect()
     }
 
+    /// What was treated as something else shall be: of what was spoken of, the last that is cut like it, else the last.
+    fn model_for(&self, phrases: &[Phrase]) -> Option<usize> {
+        let scene = self.discourse.scene;
+        let food = phrases.iter().any(|phrase| {
+            matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| scene.affords(kind, "sliceable")))
+        });
+        let alike = |e: &usize| scene.affords(self.discourse.entities[*e].kind(), "sliceable") == food;
+        let mut spoken =
+            self.discourse.spoken.iter().rev().filter_map(|spoken| spoken.objects.last().copied());
+        let last = spoken.clone().next();
+        spoken.find(alike).or(last)
+    }
+
     /// "do the same with the spoon": all that was asked for of the thing spoken of last.
     fn same_again(&mut self, clause: &Clause<'a>, spoken: &mut Spoken) -> bool {
-        let model = self.discourse.spoken.iter().rev().find_map(|spoken| spoken.objects.last().copied());
-        let Some(model) = model else { return false };
         let kind = |phrase: &&Phrase| matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| self.discourse.scene.has(kind)));
         let places = clause.places.iter().map(|place| &place.phrase);
         let phrases: Vec<Phrase> = clause.objects.iter().chain(places).filter(kind).cloned().collect();
+        let Some(model) = self.model_for(&phrases) else { return false };
         let facts: Vec<Change> =
             self.facts.iter().filter(|fact| fact.entity == model).map(|fact| fact.change.clone()).collect();
         for phrase in &phrases {
@@ -251,7 +268,13 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             .iter()
             .rev()
             .find(|fact| fact.entity == entity && about_the_same(&fact.change, &change));
-        if last.is_none_or(|last| last.change != change) {
+        // "take the cup, fill it and give it to me": it is held in the end, not on the way.
+        let again = change == Change::Held
+            && self.facts.iter().any(|fact| fact.entity == entity && fact.clause > last_clause(last));
+        if again || last.is_none_or(|last| last.change != change) {
+            if again {
+                self.facts.retain(|fact| fact.entity != entity || fact.change != Change::Held);
+            }
             self.facts.push(Fact { clause: self.clause, entity, change });
         }
     }
@@ -360,6 +383,9 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         for &entity in &switched {
             let states = self.discourse.possible_states(entity, clause.complement.clone());
             self.add_states(entity, &states);
+            // "the slices" may be spoken of later.
+            let sliced = states.into_iter().filter(|(property, _)| property == "isSliced");
+            self.discourse.entities[entity].asked.extend(sliced);
         }
         self.keep_on_the_way(clause, &switched);
         if !clause.complement.is_empty() && clause.objects.iter().any(|phrase| self.is_movable(phrase)) {
@@ -429,6 +455,11 @@ fn is_a_trip(clause: &Clause<'_>, next: Option<&Clause<'_>>) -> bool {
 /// Whether a phrase may be a lamp.
 fn is_lamp(phrase: &Phrase) -> bool {
     matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| kind == "DeskLamp" || kind == "FloorLamp"))
+}
+
+/// The clause of a fact; no clause is before the first.
+fn last_clause(fact: Option<&Fact>) -> usize {
+    fact.map_or(usize::MAX, |fact| fact.clause)
 }
 
 /// Whether one change can undo the other.

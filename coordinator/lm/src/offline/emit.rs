@@ -35,7 +35,8 @@ impl<'e, 'a> Emitter<'e, 'a> {
     /// Completes the facts (what is chilled stays in the fridge, what is put down is not held) and finds
     /// out which of them last.
     pub fn new(discourse: &'e mut Discourse<'a>, mut facts: Vec<Fact>, stays: &[Stay]) -> Self {
-        for Stay { clause, entity, device } in stays {
+        // Of what is chilled and then heated, the last says where it stays.
+        for Stay { clause, entity, device } in stays.iter().rev() {
             let (clause, entity) = (*clause, *entity);
             let placed = facts
                 .iter()
@@ -308,7 +309,10 @@ fn lasts(facts: &[Fact], index: usize, discourse: &Discourse<'_>) -> bool {
     let fact = &facts[index];
     let mut ends_cold = false;
     for (i, other) in facts.iter().enumerate() {
-        if other.entity != fact.entity {
+        let (mine, its) = (&discourse.entities[fact.entity], &discourse.entities[other.entity]);
+        // Named twice, in other words, it is one thing where there is only one.
+        let only_one = mine.kind() == its.kind() && discourse.scene.of_kind(mine.kind()).len() == 1;
+        if other.entity != fact.entity && !only_one {
             continue;
         }
         let later = i > index;

@@ -47,7 +47,7 @@ impl Gloss {
             if particles.iter().all(|particle| rest.contains(&particle.as_str())) {
                 self.properties.extend(verb.set.keys().cloned());
                 self.types.extend(verb.device.iter().cloned());
-                if verb.act == super::Act::Discard {
+                if verb.act == super::lexicon::Act::Discard {
                     self.types.insert("GarbageCan".to_owned());
                 }
             }

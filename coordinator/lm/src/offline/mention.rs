@@ -114,11 +114,18 @@ impl<'a> Discourse<'a> {
         let found = match &phrase.head {
             Head::Noun(noun) => self.noun(noun, phrase, at, wants),
             Head::Named(name) => self.named(name),
+            Head::Pronoun { .. } if phrase.text.starts_with("the former") => self.some_of_these(phrase, true),
+            Head::Pronoun { .. } if phrase.text.starts_with("the latter") => {
+                self.some_of_these(phrase, false)
+            }
             Head::Pronoun { .. } if phrase.other || matches!(phrase.quantity, Quantity::Count(_)) => {
                 self.some_of_them(phrase, wants)
             }
-            Head::Pronoun { .. } if phrase.text.ends_with("former") || phrase.text.ends_with("latter") => {
-                self.one_of_two(phrase.text.ends_with("former"))
+            Head::Pronoun { plural: true } if phrase.text.starts_with("one of") => {
+                self.one_of_them(wants).into_iter().collect()
+            }
+            Head::Pronoun { plural: true } if ["each", "all"].contains(&first_word(&phrase.text)) => {
+                self.all_of_them(wants)
             }
             Head::Pronoun { .. } if is_all_of_it(&phrase.text) => self.all_of_it(wants),
             Head::Pronoun { plural } => self.pronoun(*plural, wants),
@@ -230,7 +237,11 @@ impl<'a> Discourse<'a> {
         }
         // "every light" means all that "lights" means.
         let lexicon = self.lexicon;
-        let all = lexicon.noun(&[&super::lexicon::squash(&format!("{}s", noun.word))]);
+        let plural = |ending: &str| super::lexicon::squash(&format!("{}{ending}", noun.word));
+        let all = ["s", "es"]
+            .iter()
+            .filter_map(|ending| lexicon.noun(&[&plural(ending)]))
+            .find(|(noun, _)| noun.class);
         let noun = match all {
             Some((all, _)) if phrase.quantity == Quantity::All && all.class => all,
             _ => noun,
@@ -267,6 +278,10 @@ impl<'a> Discourse<'a> {
         }
         let except = self.exceptions(&phrase.except);
         kinds.retain(|kind| !except.contains(kind.as_str()));
+        if noun.class && phrase.other {
+            // "the rest of the dishes": without those spoken of.
+            kinds.retain(|kind| !self.entities.iter().any(|entity| entity.kind() == kind.as_str()));
+        }
         if noun.class {
             return self.class(noun, &kinds, phrase, at);
         }
@@ -410,6 +425,10 @@ impl<'a> Discourse<'a> {
             _ => true,
         }
     }
+}
+
+fn first_word(text: &str) -> &str {
+    text.split(' ').next().unwrap_or_default()
 }
 
 /// "it all", "all of that": whatever was spoken of.

@@ -12,6 +12,7 @@ mod emit;
 mod gloss;
 mod inflect;
 mod lexicon;
+mod literal;
 mod mention;
 mod phrase;
 mod rewrite;
@@ -33,7 +34,10 @@ use clause::Parser;
 use effect::{Change, Fact, Interpreter};
 use emit::{Emitter, Stay};
 pub use gloss::Gloss;
-use lexicon::{Act, Lexicon};
+use lexicon::Lexicon;
+use literal::{
+    goes_on_about_it, is_concrete, is_mere_step, is_weak, only_goes, only_tells, says_state, says_where,
+};
 use mention::{Discourse, Spoken};
 use scene::Scene;
 use snapshot::Snapshot;
@@ -271,6 +275,10 @@ fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Readi
                     .discourse
                     .assume(format!("{text}, so nothing is done for \"{}\"", next.text), 1.0);
                 index += 1;
+                // "… wash it and put it away": neither.
+                while clauses.get(index + 1).is_some_and(goes_on_about_it) {
+                    index += 1;
+                }
             }
         } else {
             one_clause(&mut interpreter, index, &clauses, lexicon);
@@ -285,7 +293,8 @@ fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Readi
     for word in passed_over {
         discourse.assume(format!("passed over \"{word}\""), 0.97);
     }
-    let concrete = clauses.iter().any(|clause| is_concrete(clause, lexicon, scene));
+    let told = clauses.iter().filter(|clause| says_where(clause, scene) || says_state(clause, scene));
+    let concrete = told.count() > 1 || clauses.iter().any(|clause| is_concrete(clause, lexicon, scene));
     Reading { concrete, ..finish(discourse, facts, &clauses) }
 }
 
@@ -297,6 +306,11 @@ fn one_clause<'a>(
     lexicon: &Lexicon,
 ) {
     let clause = &clauses[index];
+    if only_tells(index, clauses, lexicon, interpreter.discourse.scene) {
+        interpreter.discourse.assume(format!("took \"{}\" as a remark", clause.text), 0.95);
+        interpreter.discourse.spoken.push(Spoken::default());
+        return;
+    }
     // "empty the sink by moving the pan to the stove": what comes next says how.
     let by = clauses.get(index + 1).is_some_and(|next| next.words.first().is_some_and(|word| word == "by"));
     let words = situation::words_of(&clause.words);
@@ -306,7 +320,11 @@ fn one_clause<'a>(
         done_by_what_follows(interpreter, clause);
         return;
     }
+    // "I would like the soup ladle to be washed": a wish that goes on.
+    let goes_on =
+        clauses.get(index + 1).is_some_and(|next| next.words.starts_with(&["to".into(), "be".into()]));
     if !clause.negated
+        && !goes_on
         && is_weak(clause, lexicon)
         && !says_where(clause, interpreter.discourse.scene)
         && !says_state(clause, interpreter.discourse.scene)
@@ -347,89 +365,6 @@ fn one_clause<'a>(
 fn done_by_what_follows(interpreter: &mut Interpreter<'_, '_>, clause: &Clause<'_>) {
     interpreter.discourse.spoken.push(Spoken::default());
     interpreter.discourse.assume(format!("\"{}\" is done by what follows", clause.text), 0.95);
-}
-
-/// Whether a clause says too little by itself to stand against a situation: no verb, a weak one with nothing
-/// it can be done to, "everything", or a turn of phrase.
-fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
-    let first = clause.verb_text.split(' ').next().unwrap_or_default();
-    let weak = inflect::bases(first).iter().any(|(base, _)| lexicon.is_small("weak", &[base]));
-    let plain =
-        |phrase: &syntax::Phrase| matches!(phrase.head, syntax::Head::Noun(_) | syntax::Head::Named(_));
-    let places = clause.verbs.iter().any(|verb| verb.act == Act::Place)
-        && clause.objects.iter().any(plain)
-        && clause.places.iter().any(|place| matches!(place.phrase.head, syntax::Head::Noun(_)));
-    let said: Vec<&str> = clause.words.iter().map(String::as_str).collect();
-    let idiom = (0..said.len()).any(|at| lexicon.longest_small("idioms", &said[at..]).is_some());
-    clause.verbs.is_empty() || idiom || weak && !clause.verb_text.contains(' ') && !places
-}
-
-/// Whether a clause says what a thing of the scene shall be like: "have the potato chopped" is no recipe.
-fn says_state(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
-    let is_here = |phrase: &syntax::Phrase| match &phrase.head {
-        syntax::Head::Noun(noun) => !noun.class && noun.kinds.iter().any(|kind| scene.has(kind)),
-        syntax::Head::Named(_) => true,
-        _ => false,
-    };
-    let full = |phrase: &syntax::Phrase| phrase.with.iter().any(|with| with.liquid().is_some());
-    clause.wants()
-        && clause.verbs.iter().any(|verb| matches!(verb.act, Act::Keep | Act::Place))
-        && (!clause.complement.is_empty()
-            || clause.says_any(&["filled", "full"]) && clause.objects.iter().any(full))
-        && !clause.objects.is_empty()
-        && clause.objects.iter().all(is_here)
-}
-
-/// Whether a clause takes a thing of the scene to a place of the scene: "take the cloth to the bath" is no bath.
-fn says_where(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
-    let is_here = |phrase: &syntax::Phrase, affordance: &str| match &phrase.head {
-        syntax::Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, affordance)),
-        syntax::Head::Named(_) | syntax::Head::Pronoun { .. } => affordance == "pickupable",
-        _ => false,
-    };
-    let moves = clause.verbs.iter().any(|verb| matches!(verb.act, Act::Place | Act::Hold));
-    let wished = clause.verbs.iter().all(|verb| verb.act == Act::Keep);
-    let goal = |place: &syntax::Place| {
-        matches!(place.relation, syntax::Relation::In | syntax::Relation::To)
-            && is_here(&place.phrase, "receptacle")
-    };
-    let fills = |place: &syntax::Place| {
-        matches!(place.relation, syntax::Relation::In | syntax::Relation::To)
-            && is_here(&place.phrase, "canFillWithLiquid")
-    };
-    let liquid = clause.objects.iter().any(|phrase| phrase.liquid().is_some());
-    effect::untrue_place(clause, scene).is_some()
-        || wished && liquid && clause.places.iter().any(fills)
-        || moves
-            && (clause.objects.iter().any(|phrase| is_here(phrase, "pickupable"))
-                && clause.places.iter().any(goal)
-                || liquid && clause.places.iter().any(fills))
-}
-
-/// Whether a clause does something to a thing of the scene that it names.
-fn is_concrete(clause: &Clause<'_>, lexicon: &Lexicon, scene: &Scene<'_>) -> bool {
-    let is_here = |phrase: &syntax::Phrase| match &phrase.head {
-        syntax::Head::Noun(noun) => !noun.class && noun.kinds.iter().any(|kind| scene.has(kind)),
-        syntax::Head::Named(_) => true,
-        _ => false,
-    };
-    !is_weak(clause, lexicon)
-        && (clause.carries_it() && clause.places.iter().any(|place| is_here(&place.phrase))
-            || clause.objects.iter().any(is_here))
-}
-
-/// Whether a clause can only mean going somewhere: "turn left" can, "turn on the lamp" cannot.
-fn only_goes(clause: &Clause<'_>) -> bool {
-    !clause.verbs.is_empty() && clause.verbs.iter().all(|verb| verb.act == Act::Go)
-}
-
-/// Whether a clause may well have no goal of its own: going somewhere, taking what is put down later.
-fn is_mere_step(clause: &Clause<'_>) -> bool {
-    clause.negated
-        || only_goes(clause)
-        || clause.verbs.iter().any(|verb| {
-            matches!(verb.act, Act::Use | Act::Hold) || verb.act == Act::Place && clause.places.is_empty()
-        })
 }
 
 fn as_situation(

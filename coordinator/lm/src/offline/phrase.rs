@@ -223,7 +223,14 @@ impl Parser<'_> {
                 Head::Pronoun { plural: true }
             }
             "it" | "him" => Head::Pronoun { plural: false },
-            "former" | "latter" if front.phrase.definite => Head::Pronoun { plural: false },
+            "former" | "latter" if front.phrase.definite => {
+                let number = next.and_then(inflect::number).filter(|&number| number > 1);
+                if let Some(number) = number {
+                    front.quantity = Some(Quantity::Count(number));
+                    self.position += 1;
+                }
+                Head::Pronoun { plural: number.is_some() }
+            }
             "them" | "they" => Head::Pronoun { plural: true },
             "this" | "that" | "one" if alone && self.can_be_pronoun() => Head::Pronoun { plural: false },
             "these" | "those" | "both" | "ones" | "all" | "each" if alone => Head::Pronoun { plural: true },

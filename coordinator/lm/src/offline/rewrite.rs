@@ -5,6 +5,14 @@ use super::lexicon::{LONGEST, Lexicon};
 use super::syntax::is_determiner;
 use super::text::Token;
 
+mod arrangement;
+mod fragment;
+mod members;
+mod saying;
+mod speech;
+mod topic;
+mod wishing;
+
 /// An aside is no longer than this, in words.
 const LONGEST_ASIDE: usize = 8;
 
@@ -17,7 +25,48 @@ const SHALL: [&str; 14] = [
 /// A sentence in plainer words.
 pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
+    text.contractions();
+    text.corrections();
+    text.empty_words();
+    text.roundabout_wishes();
+    text.small_verbs();
+    text.first_and_last();
+    text.places_apart();
+    text.reasons_before_so();
+    text.loose_words();
+    text.additions();
+    text.states_behind_marks();
+    text.places_in_need();
+    text.questions();
+    text.needs();
+    text.ready();
+    text.bare_lists();
+    text.states_said_last();
+    text.announced_lists();
+    text.listed_in_brackets();
+    text.topics();
+    text.turns_of_phrase();
+    text.first_and_second();
+    text.with_something_somewhere();
+    text.where_one_finds_it();
+    text.quantities();
+    text.whereabouts();
+    text.needless_conditions();
+    text.exclusions();
+    text.conditions();
+    text.alternatives();
+    text.containing();
+    text.what_was_done();
+    text.orders_in_relatives();
+    text.contents();
+    text.existence();
+    text.what_is_not_wanted();
     text.headings();
+    text.modals();
+    text.fronted_things();
+    text.fronted_places();
+    text.one_for_each();
+    text.which_then();
     text.subjects();
     text.small_words();
     text.relatives();
@@ -102,13 +151,48 @@ impl Rewriting<'_> {
         }
     }
 
+    /// "Prepare the desk: put the pen on it": "it" is what the heading names.
+    fn name_it(&mut self, start: usize, colon: usize, end: usize) {
+        let first = (start..colon).find(|&at| is_determiner(self.at(at)));
+        let noun = first.and_then(|first| {
+            let last = (first + 2..=colon).find(|&at| self.noun_before(at).is_some())?;
+            Some((first..last).map(|at| self.at(at).to_owned()).collect::<Vec<_>>())
+        });
+        let it = (colon + 1..end).find(|&at| self.at(at) == "it");
+        // "boil the egg: fill the pot, put the egg in it": in what came in between.
+        let ordered = |at: usize| {
+            [",", "and"].contains(&self.at(at)) && !self.lexicon.verbs(self.at(at + 1)).is_empty()
+        };
+        let placed = it.filter(|&it| {
+            ["on", "in", "onto", "into"].contains(&self.at(it - 1)) && !(colon + 1..it).any(ordered)
+        });
+        if let (Some(noun), Some(it)) = (noun, placed) {
+            let noun: Vec<&str> = noun.iter().map(String::as_str).collect();
+            self.say(it, it + 1, &noun);
+        }
+    }
+
     /// "Clear the table: the mug goes …": what is said behind the colon says how.
     fn headings(&mut self) {
-        const WEAK: [&str; 8] = ["clear", "tidy", "sort", "organize", "organise", "here", "there", "clean"];
+        const WEAK: [&str; 12] = [
+            "clear",
+            "tidy",
+            "sort",
+            "organize",
+            "organise",
+            "here",
+            "there",
+            "clean",
+            "swap",
+            "rearrange",
+            "redistribute",
+            "change",
+        ];
         let mut start = 0;
         let mut index = 0;
         while index < self.tokens.len() {
-            let colon = self.tokens[index].typed == ":";
+            let dash = ["-", "\u{2013}", "\u{2014}"].contains(&self.tokens[index].typed.as_str());
+            let colon = self.tokens[index].typed == ":" || dash && WEAK.contains(&self.at(start));
             let end = self.next_mark(index + 1, &["."]);
             let first = self.at(start).to_owned();
             let weak = WEAK.contains(&first.as_str()) || self.lexicon.is_small("weak", &[&first]);
@@ -116,7 +200,20 @@ impl Rewriting<'_> {
                 (index + 1..end).any(|at| is_going(self.at(at)) || ["should", "must"].contains(&self.at(at)));
             let next = self.at(index + 1);
             let ordered = !self.lexicon.verbs(next).is_empty() && self.lexicon.noun(&[next]).is_none();
-            if colon && weak && index - start <= LONGEST_ASIDE && (told || ordered) {
+            let laid = ["lay", "set", "laid"].contains(&first.as_str())
+                && index > 0
+                && self.at(index - 1).ends_with("table");
+            if colon && laid && (is_determiner(next) || self.lexicon.noun(&[next]).is_some()) {
+                self.say(index, index + 1, &["with"]);
+                continue;
+            }
+            let placed = (index + 1..end).any(|at| {
+                self.at(at) == "to"
+                    || super::syntax::preposition(&[self.at(at)]).is_some() && self.at(at) != "of"
+            });
+            let listed = WEAK.contains(&first.as_str()) && placed;
+            if colon && weak && index - start <= LONGEST_ASIDE && (told || ordered || listed) {
+                self.name_it(start, index, end);
                 self.say(start, index + 1, &[]);
                 index = start;
                 continue;
@@ -133,7 +230,10 @@ impl Rewriting<'_> {
         let mut index = 1;
         while index < self.tokens.len() {
             let (before, word, next) = (self.at(index - 1), self.at(index), self.at(index + 1));
-            let all = before == "they" && ["all", "both"].contains(&word);
+            let all = before == "they" && ["all", "both"].contains(&word)
+                || ["all", "both", "each"].contains(&word)
+                    && (["need", "needs", "should", "must", "have", "has"].contains(&next) || is_going(next))
+                    && self.noun_before(index).is_some();
             let same = before == "the" && word == "same" && self.lexicon.noun(&[next]).is_some();
             let out = ["stay", "stays", "left", "kept", "stand"].contains(&before)
                 && word == "out"
@@ -207,6 +307,11 @@ impl Rewriting<'_> {
                 let end = self.next_mark(index, &["."]);
                 let nor = (index..end).find(|&at| self.at(at) == "nor");
                 let shall = nor.and_then(|nor| (nor..end).find(|&at| SHALL[..13].contains(&self.at(at))));
+                let goes = nor.and_then(|nor| (nor..end).find(|&at| is_going(self.at(at))));
+                if let (None, Some(goes)) = (shall, goes) {
+                    self.say(goes, goes + 1, &["should", "be"]);
+                }
+                let shall = shall.or(goes);
                 if let (Some(nor), Some(shall)) = (nor, shall) {
                     self.say(shall + 1, shall + 1, &["not"]);
                     self.say(nor, nor + 1, &["and"]);
@@ -354,99 +459,7 @@ impl Rewriting<'_> {
             self.say(at, at + 1, &[","]);
         }
     }
-
-    /// "the valuables (the watch and the keys) go in the safe", "the glasses, namely the cup and the mug, go …": no
-    /// mark between a subject and its verb.
-    fn named_members(&mut self) {
-        let mut named = false;
-        let mut dashes = 0;
-        let mut index = 0;
-        while index < self.tokens.len() {
-            let namely = if self.starts(index, &["that", "is"])
-                && is_determiner(self.at(index + 2))
-                && index > 0
-                && self.at(index - 1) == ","
-            {
-                2
-            } else {
-                usize::from(index > 0 && ["namely", "ie"].contains(&self.at(index)))
-            };
-            if namely > 0 {
-                // What is named is all that is meant: "the dishes, namely the pan and the pot, …" is no plate.
-                let comma = usize::from(self.at(index + namely) == ",");
-                let class = (index.saturating_sub(6)..index.saturating_sub(1))
-                    .rev()
-                    .take_while(|&at| !self.is_mark(at))
-                    .find(|&at| {
-                        is_determiner(self.at(at)) || ["anything", "everything"].contains(&self.at(at))
-                    });
-                let from = class.filter(|_| self.at(index - 1) == ",").unwrap_or(index);
-                self.say(from, index + namely + comma, &[]);
-                index = from;
-                named = true;
-            }
-            let mark = self.at(index).to_owned();
-            let typed = self.tokens.get(index).map_or("", |token| token.typed.as_str());
-            let dash = mark == "," && ["-", "\u{2013}", "\u{2014}"].contains(&typed);
-            let closing = mark == "," && (typed == ")" || dash && dashes % 2 == 1 || named);
-            dashes += usize::from(dash);
-            let next = self.at(index + 1);
-            if closing && (is_going(next) || SHALL.contains(&next)) {
-                self.say(index, index + 1, &[]);
-                named = false;
-            }
-            if mark == "." {
-                (named, dashes) = (false, 0);
-            }
-            index += 1;
-        }
-    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::offline::text::tokens;
-
-    fn plain(text: &str) -> String {
-        let lexicon = Lexicon::embedded().unwrap();
-        let words: Vec<String> =
-            rewritten(tokens(text), &lexicon).into_iter().map(|token| token.text).collect();
-        words.join(" ")
-    }
-
-    #[test]
-    fn subordinate_clauses_become_main_ones() {
-        for (said, meant) in [
-            (
-                "put the egg in the bowl, which goes in the fridge",
-                "put the egg in the bowl . the bowl goes in the fridge",
-            ),
-            ("put the paper, which is old, in the bin", "put the paper in the bin"),
-            ("put the egg, since it is off, in the bin", "put the egg in the bin"),
-            ("neither the stove nor the tap should be on", "the stove and the tap should not be on"),
-            ("robots wash the fork, another the spoon", "robots wash the fork , the spoon"),
-            ("the book goes on the bed; so does the pillow", "the book goes on the bed , the pillow"),
-            ("put all but the fork away", "put all except the fork away"),
-            (
-                "valuables - the watch and the keys - go in the safe",
-                "valuables , the watch and the keys go in the safe",
-            ),
-            (
-                "cut the bread next to the apple, which you also slice",
-                "cut the bread next to the apple , and slice the apple",
-            ),
-        ] {
-            assert_eq!(plain(said), meant);
-        }
-    }
-
-    #[test]
-    fn what_is_plain_already_stays_as_it_is() {
-        for said in
-            ["put the mug on the table , and the other on the desk", "wash the fork , which is on the desk"]
-        {
-            assert_eq!(plain(said), said);
-        }
-    }
-}
+mod tests;

@@ -286,7 +286,8 @@ impl Clause<'_> {
     }
 }
 
-const FUNCTION_WORDS: [&str; 98] = [
+const FUNCTION_WORDS: [&str; 99] = [
+    "plus",
     "a",
     "an",
     "the",

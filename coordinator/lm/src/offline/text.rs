@@ -11,7 +11,7 @@ pub const LONGEST_INSTRUCTION: usize = 4096;
 pub const POSSESSIVE: &str = "'s";
 
 /// Words whose "'s" is "is" or "us".
-const CONTRACTED: [&str; 9] = ["it", "that", "there", "let", "what", "here", "he", "she", "who"];
+const CONTRACTED: [&str; 10] = ["it", "that", "there", "let", "what", "where", "here", "he", "she", "who"];
 
 /// A word or a mark.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,6 +24,7 @@ pub struct Token {
 
 /// Splits an instruction into words and the marks that separate clauses.
 pub fn tokens(instruction: &str) -> Vec<Token> {
+    let instruction = &instruction.replace("i.e.", "ie").replace("I.e.", "ie").replace("e.g.", "eg");
     let mut found = Vec::new();
     let mut word = String::new();
     let flush = |word: &mut String, found: &mut Vec<Token>| {
@@ -95,8 +96,18 @@ pub fn repair_spelling(tokens: &mut [Token], lexicon: &Lexicon, scene: &Scene) -
         return repairs;
     }
     let mut repaired: Vec<Token> = tokens.to_vec();
-    for token in &mut repaired {
-        if let Some(text) = repair(&token.text, lexicon, scene) {
+    // "bung the egg in the fridge": what stands where a verb is due is no thing misspelt.
+    let verb_is_due = |at: usize| {
+        let opens = at == 0 || [",", ".", "and", "then"].contains(&tokens[at - 1].text.as_str());
+        opens && tokens.get(at + 1).is_some_and(|next| ["the", "a", "an", "my"].contains(&next.text.as_str()))
+    };
+    let due: Vec<bool> = (0..tokens.len()).map(verb_is_due).collect();
+    for (token, due) in repaired.iter_mut().zip(due) {
+        let meant = repair(&token.text, lexicon, scene);
+        let fits = |meant: &String| {
+            !due || super::syntax::is_function_word(meant) || !lexicon.verbs(meant).is_empty()
+        };
+        if let Some(text) = meant.filter(fits) {
             token.text = text;
             repairs.push(repair_note(token));
         }

@@ -83,7 +83,13 @@ pub fn outcomes(text: &str, offline: &Offline) -> Result<Vec<Outcome>, String> {
 fn judge(answer: &Answer, goal: &str, objects: &[ObjectView]) -> (bool, String) {
     let decomposition = match answer {
         Answer::Understood(decomposition) => decomposition,
-        Answer::Clarify(asks) => return (goal == "?", format!("asks: {:?}", asks.not_understood)),
+        Answer::Clarify(asks) => {
+            return (goal == "?", {
+                let perhaps = asks.readings.iter().map(|reading| format!("{:.2}", reading.confidence));
+                let perhaps: Vec<String> = perhaps.collect();
+                format!("asks: {:?} (readings at {})", asks.not_understood, perhaps.join(", "))
+            });
+        }
     };
     let mut got = Vec::new();
     for entry in decomposition.subtasks.iter().filter(|s| s.lasting).flat_map(|s| &s.goal) {

@@ -246,6 +246,21 @@ impl<'a> Parser<'a> {
         false
     }
 
+    /// "on the desk but closed": a state besides the place.
+    pub(super) fn but_so(&mut self, clause: &mut Clause<'a>) -> bool {
+        let state = self.word_at(1).is_some_and(|word| {
+            self.lexicon.adjective(&[word]).is_some() && self.longest_noun_at(self.position + 1).is_none()
+        });
+        let ends = self.word_at(2).is_none_or(|next| [",", ".", "and"].contains(&next));
+        if self.peek() != Some("but") || !state || !ends || clause.objects.is_empty() {
+            return false;
+        }
+        self.position += 1;
+        let told = self.complement(clause);
+        self.position -= usize::from(!told);
+        told
+    }
+
     /// "filled with water", "full of water"
     fn full_of_what(&mut self, clause: &mut Clause<'a>) {
         if !matches!(self.peek(), Some("with" | "of")) {
@@ -355,7 +370,11 @@ impl<'a> Parser<'a> {
         let Some(word) = self.word_at(at) else { return false };
         let wanted = if article == 1 { VerbForm::Base } else { VerbForm::Gerund };
         let doing = |(form, particles, verb): &(VerbForm, &[String], &Verb)| {
-            *form == wanted && particles.is_empty() && !matches!(verb.act, Act::Place | Act::Go)
+            *form == wanted
+                && particles.is_empty()
+                && (verb.act != Act::Place
+                    || self.word_at(at + 1).is_some_and(|w| preposition(&[w]).is_some()))
+                && verb.act != Act::Go
         };
         clause.verbs = self.lexicon.verbs(word).into_iter().filter(doing).map(|(_, _, verb)| verb).collect();
         if clause.verbs.is_empty() {

@@ -112,7 +112,11 @@ impl<'a> Parser<'a> {
             }
             return true;
         }
+        let shall = self.position > 1
+            && ["be", "go"].contains(&self.words[self.position - 1].as_str())
+            && ["should", "must", "shall"].contains(&self.words[self.position - 2].as_str());
         let places = clause.verbs.iter().any(|verb| verb.act == Act::Place)
+            || clause.verbs.is_empty() && shall
             || clause.verbs.is_empty() && clause.unknown.iter().any(|word| is_going(word));
         let length = preposition(&self.rest())
             .filter(|(relation, _)| matches!(relation, Relation::In | Relation::To))

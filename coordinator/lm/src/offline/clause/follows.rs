@@ -7,8 +7,11 @@ impl<'a> Parser<'a> {
     /// Whether a state is told here: "is clean", "sliced".
     pub(in crate::offline) fn state_told(&self) -> bool {
         self.peek().is_some_and(|word| {
-            ["is", "are", "stays", "stay"].contains(&word)
-                || preposition(&[word]).is_none() && self.lexicon.adjective(&[word]).is_some()
+            let rest = self.rest();
+            ["is", "are", "stays", "stay", "gets", "get"].contains(&word)
+                || preposition(&[word]).is_none()
+                    && (self.lexicon.adjective(&[word]).is_some()
+                        || rest.len() > 1 && self.lexicon.adjective(&rest[..2]).is_some())
         })
     }
 

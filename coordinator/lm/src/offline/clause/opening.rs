@@ -106,11 +106,12 @@ impl Parser<'_> {
                 }
                 "dont" | "never" | "without" | "not" | "avoid" => opening.negated = true,
                 _ => match polite {
-                    Some(length) => {
+                    // "next to the plate lay the fork"
+                    Some(length) if word != "next" || preposition(&rest).is_none() => {
                         self.position += length;
                         continue;
                     }
-                    None => break,
+                    _ => break,
                 },
             }
             self.position += 1;
@@ -134,7 +135,8 @@ impl Parser<'_> {
         }
         let poured = things.iter().all(|phrase| phrase.liquid().is_some())
             && preposition(&ahead.rest()).is_some_and(|(relation, _)| relation == Relation::In)
-            && ahead.word_at(1) != Some("it");
+            && ahead.word_at(1) != Some("it")
+            && self.goes_into_a_vessel(&ahead);
         if poured {
             return true;
         }
@@ -146,6 +148,16 @@ impl Parser<'_> {
         let told = ["isOpen", "isToggled", "isFilledWithLiquid"];
         (ends || ahead.peek() == Some("full"))
             && state.is_some_and(|state| state.set.keys().any(|p| told.contains(&p.as_str())))
+    }
+
+    /// "(with water) in the cup", but not "(the kettle with water) on the counter".
+    fn goes_into_a_vessel(&self, ahead: &Self) -> bool {
+        let mut place = ahead.ahead(preposition(&ahead.rest()).map_or(0, |(_, length)| length));
+        let phrase = place.phrase(0);
+        phrase.is_some_and(|phrase| match &phrase.head {
+            super::super::syntax::Head::Noun(noun) => self.has_affordance(noun, "canFillWithLiquid"),
+            _ => true,
+        })
     }
 
     /// "… so (that) you can put it on the table": an order after all; how many words stand before its verb.

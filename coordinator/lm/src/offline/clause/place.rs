@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::super::syntax::{Clause, Head, Phrase, Place, Relation, preposition};
+use super::super::syntax::{Clause, Head, Phrase, Place, Quantity, Relation, preposition};
 use super::{Parser, is_going};
 
 impl<'a> Parser<'a> {
@@ -54,6 +54,8 @@ impl<'a> Parser<'a> {
             object.except.append(&mut phrase.except);
         }
         let said = self.text_between(start, start + length);
+        let relation =
+            if self.wants_place && is_on_the_rim(&said, &phrase) { Relation::Near } else { relation };
         self.last_place = Some(Rc::new(phrase.clone()));
         clause.places.push(Place::new(relation, &said, phrase));
         self.more_places(clause, relation);
@@ -95,7 +97,9 @@ impl<'a> Parser<'a> {
             {
                 1
             }
-            (Some("the"), Some("other")) if self.longest_noun_at(self.position + 2).is_none() => 2,
+            (Some("the"), Some("other")) if self.longest_noun_at(self.position + 2).is_none() => {
+                2 + usize::from(self.word_at(2) == Some("one"))
+            }
             _ => return false,
         };
         let from = clause.places.iter().find(|place| place.relation == Relation::From);
@@ -124,6 +128,8 @@ impl<'a> Parser<'a> {
     pub(super) fn new_subject_follows(&self) -> bool {
         let mut ahead = self.ahead(0);
         ahead.skip_joins();
+        // "…, no drawer may be open"
+        ahead.position += usize::from(ahead.peek() == Some("no"));
         let things = ahead.phrases(0);
         let Some(first) = things.first() else { return false };
         // "…, all of them clean"
@@ -131,7 +137,8 @@ impl<'a> Parser<'a> {
             return true;
         }
         ahead.peek().is_some_and(|word| {
-            ["should", "must", "needs", "need", "is", "are", "has", "have", "ought", "can"].contains(&word)
+            ["should", "must", "needs", "need", "is", "are", "has", "have", "ought", "can", "may", "shall"]
+                .contains(&word)
                 || is_going(word) && ahead.ahead(1).place_length().is_some()
         })
     }
@@ -170,6 +177,7 @@ impl<'a> Parser<'a> {
                 .is_some_and(|(other, _)| other != Relation::From && other != Relation::With);
             let another_pair = self.switched_follows()
                 || told
+                || self.state_told() && self.is_openable(&phrase)
                 || (!clause.complement.is_empty() || clause.verbs.is_empty()) && self.state_told()
                 || relation != Relation::From
                     && !(relation == Relation::With && self.wants_place && clause.places.len() == 1)
@@ -186,6 +194,12 @@ impl<'a> Parser<'a> {
                 clause.places.push(Place::new(relation, "", phrase));
             }
         }
+    }
+
+    /// Whether a phrase names what stands where it is and can be opened.
+    fn is_openable(&self, phrase: &Phrase) -> bool {
+        matches!(&phrase.head, Head::Noun(noun) if self.has_affordance(noun, "openable"))
+            && !self.is_movable(phrase)
     }
 
     /// "with a card in hand, turn on the lamp": places said before the verb.
@@ -207,4 +221,14 @@ impl<'a> Parser<'a> {
             self.position = start;
         }
     }
+}
+
+/// "on the sink", "on the edge of the sink": beside the basin, on what that is let into.
+fn is_on_the_rim(preposition: &str, phrase: &Phrase) -> bool {
+    let basin = matches!(&phrase.head, Head::Noun(noun)
+        if noun.kinds.first().is_some_and(|kind| ["SinkBasin", "Sink"].contains(&kind.as_str())));
+    let on =
+        ["on", "onto", "on to", "on top of", "upon", "atop", "over on", "down on"].contains(&preposition);
+    let rim = phrase.text.split(' ').any(|word| ["edge", "rim", "ledge", "lip"].contains(&word));
+    basin && phrase.quantity == Quantity::One && (on || rim)
 }

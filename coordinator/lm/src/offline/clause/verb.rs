@@ -97,6 +97,9 @@ impl<'a> Parser<'a> {
         {
             return true;
         }
+        if self.is_unknown_verb(word, self.position + 1) {
+            return true;
+        }
         let Some((form, verbs, length)) = self.verbs_here() else {
             return self.lexicon.longest_small("polite", &rest).is_some();
         };
@@ -117,6 +120,14 @@ impl<'a> Parser<'a> {
             let to_somewhere = next.is_some_and(|next| preposition(&[next]).is_some());
             return first || determined || to_somewhere && noun.is_none();
         }
+        // "watch, keys and card go in the box": things, not something to be done.
+        let listed = matches!(next, Some("," | "and"))
+            && noun
+                .as_ref()
+                .is_some_and(|(noun, _, _)| noun.word != "water" && self.has_affordance(noun, "pickupable"));
+        if listed {
+            return false;
+        }
         if noun.is_some() {
             // A word that is noun and verb is a verb when something to do it to follows at once.
             return first || determined || self.noun_begins(length);
@@ -125,6 +136,16 @@ impl<'a> Parser<'a> {
             return first || determined || (!self.wants_place && self.noun_begins(length));
         }
         !verbs.is_empty()
+    }
+
+    /// "bung the egg …": a word nobody knows where a verb is due.
+    pub(super) fn is_unknown_verb(&self, word: &str, next: usize) -> bool {
+        let next = self.words.get(next).map(String::as_str).unwrap_or_default();
+        word.len() > 2
+            && word.chars().all(|c| c.is_ascii_lowercase())
+            && (is_determiner(next) && !["other", "another"].contains(&next))
+            && !super::super::text::is_known(word, self.lexicon, self.scene)
+            && self.lexicon.longest_small("polite", &[word]).is_none()
     }
 
     /// "lights off", "microwave on please": a thing and its switch, not a verb and its particle.

@@ -5,7 +5,7 @@ use lamma_domains::goal::PropertyValue;
 use super::super::lexicon::{Act, Settings, Verb};
 use super::super::mention::Spoken;
 use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
-use super::{Change, Fact, Interpreter};
+use super::{Change, Interpreter};
 
 impl<'a> Interpreter<'_, 'a> {
     pub(super) fn set(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
@@ -24,17 +24,8 @@ impl<'a> Interpreter<'_, 'a> {
         let objects = self.objects(clause, &at, verb.wants.as_deref());
         let mut changed = Vec::new();
         for &entity in &objects {
-            let within = |fact: &Fact| {
-                matches!(fact.change, Change::Inside(at) if self.discourse.entities[at].kind() == "Microwave")
-                    && fact.entity == entity
-            };
-            let microwaved = verb.act == Act::Cook
-                && (clause.places.iter().any(is_microwave) || self.facts.iter().any(within));
             let target = self.switch_of(entity, &verb.set);
-            let mut states = self.discourse.adapted_states(target, verb);
-            if microwaved && states.remove("isCooked").is_some() {
-                states.insert("temperature".to_owned(), PropertyValue::Word("Hot".to_owned()));
-            }
+            let states = self.discourse.adapted_states(target, verb);
             self.add_states(target, &states);
             self.discourse.entities[target].asked.extend(states);
             changed.push(target);
@@ -55,6 +46,24 @@ impl<'a> Interpreter<'_, 'a> {
         self.hold_what_is_with(clause, verb);
         let places = self.places_spoken_of(&clause.places);
         Spoken { objects: changed, places, placed: false, ..Spoken::default() }
+    }
+
+    /// What was spoken of last and holds liquids.
+    pub(super) fn vessel_spoken_of(&self) -> Option<usize> {
+        let discourse = &self.discourse;
+        let holds = |&e: &usize| discourse.scene.affords(discourse.entities[e].kind(), "canFillWithLiquid");
+        let mut spoken =
+            discourse.spoken.iter().rev().flat_map(|spoken| spoken.places.iter().chain(&spoken.objects));
+        spoken.find(|entity| holds(entity)).copied()
+    }
+
+    /// "put the potato in the pot and add water": to the pot.
+    pub(super) fn fill_vessel_spoken_of(&mut self, clause: &Clause<'a>) -> Spoken {
+        let Some(vessel) = self.vessel_spoken_of() else { return Spoken::default() };
+        for liquid in clause.objects.iter().filter_map(Phrase::liquid) {
+            self.add_states(vessel, &super::super::mention::filled(liquid));
+        }
+        Spoken { objects: vec![vessel], ..Spoken::default() }
     }
 
     /// "slice the potato on the table": it is on the table when it is done.
@@ -98,7 +107,14 @@ impl<'a> Interpreter<'_, 'a> {
         let phrases: Vec<Phrase> = with.chain(places.map(|place| &place.phrase)).cloned().collect();
         for phrase in phrases {
             let held = self.discourse.mention(&phrase, &[], Some("pickupable"));
-            self.take(&held);
+            // "turn on the TV with the remote": a tool of its own.
+            let tool = |&e: &usize| self.discourse.entities[e].kind() == "RemoteControl";
+            let screen = clause.objects.iter().any(|phrase| {
+                matches!(&phrase.head, Head::Noun(noun) if noun.kinds.first().is_some_and(|kind| kind == "Television"))
+            });
+            if !(screen && held.iter().all(tool)) {
+                self.take(&held);
+            }
         }
     }
 
@@ -152,7 +168,15 @@ impl<'a> Interpreter<'_, 'a> {
         if said.is_none() && solid {
             return Spoken { objects, ..Spoken::default() };
         }
-        let liquid = said.unwrap_or_else(|| {
+        // "make coffee and pour it into the mug"
+        let poured = clause.objects.iter().any(|phrase| matches!(phrase.head, Head::Pronoun { .. }));
+        let brewed = self.facts.iter().rev().filter(|_| poured).find_map(|fact| match &fact.change {
+            Change::State(property, PropertyValue::Word(liquid)) if property == "fillLiquid" => {
+                Some(liquid.clone())
+            }
+            _ => None,
+        });
+        let liquid = said.or(brewed.filter(|_| verb.act == Act::Pour)).unwrap_or_else(|| {
             self.discourse.assume("it is filled with water".to_owned(), 0.98);
             "water".to_owned()
         });
@@ -184,9 +208,4 @@ fn is_a_while(place: &Place) -> bool {
     const TIMES: [&str; 8] = ["second", "seconds", "minute", "minutes", "moment", "while", "bit", "time"];
     place.relation == Relation::For
         && matches!(&place.phrase.head, Head::Unknown(word) if TIMES.contains(&word.as_str()))
-}
-
-/// Whether a place is a microwave: what is cooked there is heated, and that cooks what can be cooked.
-fn is_microwave(place: &Place) -> bool {
-    matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.first().is_some_and(|kind| kind == "Microwave"))
 }

@@ -283,6 +283,24 @@ impl<'a> Interpreter<'_, 'a> {
                     || other.which == Which::All)
     }
 
+    /// Whether all of some things stand at every place that a clause names.
+    fn stands_there(&self, clause: &Clause<'a>, things: &[usize]) -> bool {
+        let scene = self.discourse.scene;
+        let at = |kind: &str, noun: &super::super::lexicon::Noun| {
+            scene.of_kind(kind).iter().any(|object| {
+                object.parents.is_empty()
+                    || scene.lies_in(object, &|parent| noun.kinds.contains(&parent.kind))
+            })
+        };
+        things.iter().all(|&entity| {
+            let kind = self.discourse.entities[entity].kind();
+            clause.places.iter().all(|place| match &place.phrase.head {
+                Head::Noun(noun) => at(kind, noun),
+                _ => true,
+            })
+        })
+    }
+
     /// "if the light is on": whether it is so now.
     pub fn condition(&mut self, index: usize, clause: &Clause<'a>) -> bool {
         self.clause = index;
@@ -290,6 +308,14 @@ impl<'a> Interpreter<'_, 'a> {
         let mut objects = Vec::new();
         for phrase in &clause.objects {
             objects.extend(self.discourse.mention(phrase, &clause.places, wants));
+        }
+        if clause.complement.is_empty() && clause.says_any(&["there"]) && clause.verbs.is_empty() {
+            // "if there is a mug on the desk"
+            let scene = self.discourse.scene;
+            let named = clause.objects.iter().any(|phrase| is_here(scene, phrase));
+            let there = named && !objects.is_empty() && self.stands_there(clause, &objects);
+            self.discourse.spoken.push(Spoken { objects, ..Spoken::default() });
+            return there;
         }
         if clause.complement.is_empty() || objects.is_empty() {
             self.discourse.problem(format!("I cannot tell whether \"{}\" holds", clause.text), 0.3);

@@ -38,6 +38,10 @@ impl<'a> Interpreter<'_, 'a> {
                 return Spoken { objects, placed: true, places: vec![place], ..Spoken::default() };
             }
         }
+        if is_left_alone(clause) {
+            self.discourse.assume(format!("\"{}\": it stays as it is", clause.text), 0.95);
+            return self.only_mention(clause);
+        }
         let meanwhile = clause.link == Link::While && self.lamp_wanted && self.switches_on;
         // "put the fork with the plate": where that is.
         let near = |place: &&Place| match place.relation {
@@ -271,10 +275,19 @@ impl<'a> Interpreter<'_, 'a> {
             self.add_states(entity, &states);
         }
         if let Some(&place) = places.first() {
-            for &entity in &objects {
-                if entity != place {
-                    self.put_in(entity, place);
-                }
+            // What surely fits says which place is meant, whatever else goes there.
+            let home = self.discourse.entities[place].kind().to_owned();
+            let fits = |&entity: &usize| {
+                !self.discourse.scene.surely_accepts(&home, self.discourse.entities[entity].kind())
+            };
+            let mut in_order = objects.clone();
+            in_order.sort_by_key(fits);
+            let several = in_order.len() > 1 && in_order.first().is_some_and(|entity| !fits(entity));
+            if several {
+                self.discourse.entities[place].kinds.truncate(1);
+            }
+            for &entity in in_order.iter().filter(|&&entity| entity != place) {
+                self.put_in(entity, place);
             }
         }
         Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
@@ -410,4 +423,10 @@ impl<'a> Interpreter<'_, 'a> {
             .map(|parent| parent.kind.clone())
             .next()
     }
+}
+
+/// "leave the knife", "leave them alone": nothing is done.
+fn is_left_alone(clause: &Clause<'_>) -> bool {
+    let left = clause.verb_text == "leave" && !clause.objects.is_empty();
+    left && clause.places.is_empty() && clause.complement.is_empty() && !clause.back
 }

@@ -48,6 +48,15 @@ impl<'a> Interpreter<'_, 'a> {
             spoken = self.only_mention(clause);
         } else if clause.unknown.is_empty() && clause.says_any(&["want", "need", "like", "love", "fancy"]) {
             spoken = self.bring(clause);
+        } else if ["stay", "stays"].iter().any(|word| clause.text.ends_with(word))
+            && !clause.objects.is_empty()
+            && matches!(clause.unknown.as_slice(), [word] if ["stay", "stays"].contains(&word.as_str()))
+        {
+            // "the forks stay": where they are.
+            self.discourse.assume(format!("\"{}\" asks for nothing new", clause.text), 0.95);
+            self.spoke = true;
+            let all = clause.objects.iter().any(|phrase| phrase.head == Head::Everything);
+            spoken = if all { Spoken::default() } else { self.only_mention(clause) };
         } else if clause.is_remark() && (next.is_some() || index > 0) {
             // Why something is wanted is no order.
             self.discourse.assume(format!("took \"{}\" as a remark", clause.text), 0.9);
@@ -200,8 +209,13 @@ pub(in crate::offline) fn untrue_place<'c>(clause: &'c Clause<'_>, scene: &Scene
         }
         _ => false,
     };
+    let is_here = |phrase: &Phrase| matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| scene.affords(kind, "pickupable")));
     let takes = home.kinds.iter().any(|kind| scene.affords(kind, "receptacle"));
-    (takes && !clause.objects.is_empty() && clause.objects.iter().all(elsewhere)).then_some(place)
+    let listed = clause.objects.len() > 1 && clause.objects.iter().all(is_here);
+    (takes
+        && !clause.objects.is_empty()
+        && (clause.objects.iter().all(elsewhere) || listed && clause.objects.iter().any(elsewhere)))
+    .then_some(place)
 }
 
 /// "the pan needs to be washed"

@@ -20,8 +20,11 @@ impl Discourse<'_> {
     pub fn control(&mut self, entity: usize, control: String, on: bool) -> usize {
         let text = self.entities[entity].text.clone();
         self.assume(format!("\"{text}\" is switched by the {control}"), 0.98);
-        if let Some((_, known)) = self.controls.iter().find(|(switched, _)| *switched == entity) {
-            return *known;
+        // All were off; one is to be on.
+        let known =
+            self.controls.iter().rev().find(|(switched, _)| *switched == entity).map(|(_, known)| *known);
+        if let Some(known) = known.filter(|known| !on || self.entities[*known].which != Which::All) {
+            return known;
         }
         // "two burners" have two knobs; "the sink" and "the faucet" have one.
         let (kind, which) = (self.entities[entity].kind(), &self.entities[entity].which);

@@ -23,6 +23,14 @@ impl Discourse<'_> {
     }
 
     pub(super) fn everything(&mut self, phrase: &Phrase, at: &[Place], wants: Option<&str>) -> Vec<usize> {
+        let before = if ["everything", "all"].contains(&phrase.text.as_str()) && at.is_empty() {
+            self.gathered(wants)
+        } else {
+            Vec::new()
+        };
+        if before.len() > 1 && wants == Some("pickupable") {
+            return before;
+        }
         let fixed = wants.filter(|wants| ["openable", "toggleable"].contains(wants));
         let places: Vec<&Place> = phrase.at.iter().chain(at).collect();
         let except = self.exceptions(&phrase.except);
@@ -61,16 +69,55 @@ impl Discourse<'_> {
             .collect()
     }
 
-    /// "the former", "the latter": the first or the last of those spoken of together.
-    pub(super) fn one_of_two(&mut self, first: bool) -> Vec<usize> {
-        let group = self.spoken.iter().rev().find(|spoken| spoken.objects.len() > 1);
-        let one = group
-            .and_then(|spoken| if first { spoken.objects.first() } else { spoken.objects.last() })
-            .copied();
-        if one.is_none() {
+    /// "the former", "the latter two": the first or the last of those spoken of together.
+    pub(super) fn some_of_these(&mut self, phrase: &Phrase, first: bool) -> Vec<usize> {
+        let count = if let Quantity::Count(count) = phrase.quantity { count } else { 1 };
+        let nearest =
+            self.spoken.iter().rev().map(|spoken| &spoken.objects).find(|group| group.len() > count);
+        // "the former two … the latter": of the same.
+        let whole = |part: &Vec<usize>| {
+            let groups = self.spoken.iter().map(|spoken| &spoken.objects);
+            groups.max_by_key(|group| usize::from(part.iter().all(|e| group.contains(e))) * group.len())
+        };
+        let group = nearest.and_then(whole);
+        let gathered = self.gathered(None);
+        let group = group.unwrap_or(&gathered);
+        if group.len() <= count {
             self.problem("it is not said which of them is meant".to_owned(), 0.3);
+            return Vec::new();
         }
-        one.into_iter().collect()
+        if first { group[..count].to_vec() } else { group[group.len() - count..].to_vec() }
+    }
+
+    /// "all of them", "each": what was spoken of since something was put somewhere, or in the clause that put it.
+    pub(super) fn all_of_them(&mut self, wants: Option<&str>) -> Vec<usize> {
+        let found = self.gathered(wants);
+        if found.len() > 1 { found } else { self.pronoun(true, wants) }
+    }
+
+    /// "one of them": one that the verb can be done to.
+    pub(super) fn one_of_them(&mut self, wants: Option<&str>) -> Option<usize> {
+        let all = self.all_of_them(wants);
+        let able = |&&e: &&usize| wants.is_none_or(|wants| self.affords(self.entities[e].kind(), wants));
+        all.iter().find(able).or(all.first()).copied()
+    }
+
+    /// What was spoken of since something was put somewhere, or in the clause that put it.
+    fn gathered(&self, wants: Option<&str>) -> Vec<usize> {
+        let mut found: Vec<usize> = Vec::new();
+        for spoken in self.spoken.iter().rev() {
+            if spoken.placed && !found.is_empty() {
+                break;
+            }
+            let able = |&entity: &usize| {
+                wants.is_none_or(|wants| self.affords(self.entities[entity].kind(), wants))
+                    && !found.contains(&entity)
+            };
+            let able: Vec<usize> = spoken.objects.iter().copied().filter(able).collect();
+            found.extend(able);
+        }
+        found.sort_unstable();
+        found
     }
 
     /// "put it all on the table": whatever was spoken of and can be carried.
@@ -163,6 +210,11 @@ impl Discourse<'_> {
                 }
             }
             all.sort_unstable();
+            // "put them in the sink, turn on the tap and wash them": not the tap.
+            let carried = |e: &usize| self.affords(self.entities[*e].kind(), "pickupable");
+            if wants.is_none() && all.iter().filter(|e| carried(e)).count() > 1 {
+                all.retain(carried);
+            }
             if !all.is_empty() {
                 return all;
             }

@@ -13,15 +13,16 @@ impl Discourse<'_> {
         phrase: &Phrase,
         at: &[Place],
     ) -> Vec<usize> {
-        let count = count.min(64);
-        let enough = kinds.iter().position(|kind| self.scene.of_kind(kind).len() >= count);
+        let there: usize = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).sum();
+        // "two slices of bread" may be of one loaf.
         let sliced = phrase.states.contains_key("isSliced");
+        let count = if sliced && there > 0 { count.min(there) } else { count.min(64) };
+        let enough = kinds.iter().position(|kind| self.scene.of_kind(kind).len() >= count);
         let mut order = kinds.to_vec();
         match enough {
             Some(at) => order.swap(0, at),
             None if sliced => {}
             None => {
-                let there: usize = kinds.iter().map(|kind| self.scene.of_kind(kind).len()).sum();
                 if there < count
                     && let Some(alike) = self.alike(kinds, count)
                 {

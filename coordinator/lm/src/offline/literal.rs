@@ -1,0 +1,128 @@
+//! Whether a clause says itself what to do, or is left to the situations.
+
+use super::lexicon::{Act, Lexicon};
+use super::scene::Scene;
+use super::syntax::Clause;
+use super::{effect, inflect, syntax};
+
+/// Whether a clause says too little by itself to stand against a situation: no verb, a weak one with nothing
+/// it can be done to, "everything", or a turn of phrase.
+pub fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
+    let first = clause.verb_text.split(' ').next().unwrap_or_default();
+    let weak = inflect::bases(first).iter().any(|(base, _)| lexicon.is_small("weak", &[base]));
+    let plain =
+        |phrase: &syntax::Phrase| matches!(phrase.head, syntax::Head::Noun(_) | syntax::Head::Named(_));
+    let places = clause.verbs.iter().any(|verb| verb.act == Act::Place)
+        && clause.objects.iter().any(plain)
+        && clause.places.iter().any(|place| matches!(place.phrase.head, syntax::Head::Noun(_)));
+    let said: Vec<&str> = clause.words.iter().map(String::as_str).collect();
+    let idiom = (0..said.len()).any(|at| lexicon.longest_small("idioms", &said[at..]).is_some());
+    clause.verbs.is_empty() || idiom || weak && !clause.verb_text.contains(' ') && !places
+}
+
+/// Whether a clause says what a thing of the scene shall be like: "have the potato chopped" is no recipe.
+pub fn says_state(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
+    let is_here = |phrase: &syntax::Phrase| match &phrase.head {
+        syntax::Head::Noun(noun) => !noun.class && noun.kinds.iter().any(|kind| scene.has(kind)),
+        syntax::Head::Named(_) => true,
+        _ => false,
+    };
+    let full = |phrase: &syntax::Phrase| phrase.with.iter().any(|with| with.liquid().is_some());
+    let wished = clause.verbs.is_empty() && clause.says_any(&["like", "love", "prefer", "want", "need"]);
+    clause.wants()
+        && (wished || clause.verbs.iter().any(|verb| matches!(verb.act, Act::Keep | Act::Place)))
+        && (!clause.complement.is_empty()
+            || clause.says_any(&["filled", "full"]) && clause.objects.iter().any(full))
+        && !clause.objects.is_empty()
+        && clause.objects.iter().all(is_here)
+}
+
+/// Whether a clause takes a thing of the scene to a place of the scene: "take the cloth to the bath" is no bath.
+pub fn says_where(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
+    let is_here = |phrase: &syntax::Phrase, affordance: &str| match &phrase.head {
+        syntax::Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, affordance)),
+        syntax::Head::Named(_) | syntax::Head::Pronoun { .. } | syntax::Head::Slices => {
+            affordance == "pickupable"
+        }
+        _ => false,
+    };
+    let moves = clause.verbs.iter().any(|verb| matches!(verb.act, Act::Place | Act::Hold));
+    let wished = clause.verbs.iter().all(|verb| verb.act == Act::Keep);
+    let goal = |place: &syntax::Place| {
+        matches!(place.relation, syntax::Relation::In | syntax::Relation::To)
+            && is_here(&place.phrase, "receptacle")
+    };
+    let fills = |place: &syntax::Place| {
+        matches!(place.relation, syntax::Relation::In | syntax::Relation::To)
+            && is_here(&place.phrase, "canFillWithLiquid")
+    };
+    let liquid = clause.objects.iter().any(|phrase| phrase.liquid().is_some());
+    let carried = |phrase: &syntax::Phrase| is_here(phrase, "pickupable");
+    effect::untrue_place(clause, scene).is_some()
+        || wished
+            && clause.says_any(&["want", "like"])
+            && !clause.verbs.is_empty()
+            && clause.objects.len() > 1
+            && clause.objects.iter().all(carried)
+            && clause.places.iter().any(goal)
+        || wished && liquid && clause.places.iter().any(fills)
+        || moves
+            && (clause.objects.iter().any(|phrase| is_here(phrase, "pickupable"))
+                && clause.places.iter().any(goal)
+                || liquid && clause.places.iter().any(fills))
+}
+
+/// Whether a clause does something to a thing of the scene that it names.
+pub fn is_concrete(clause: &Clause<'_>, lexicon: &Lexicon, scene: &Scene<'_>) -> bool {
+    let is_here = |phrase: &syntax::Phrase| match &phrase.head {
+        syntax::Head::Noun(noun) => !noun.class && noun.kinds.iter().any(|kind| scene.has(kind)),
+        syntax::Head::Named(_) => true,
+        _ => false,
+    };
+    !is_weak(clause, lexicon)
+        && (clause.carries_it() && clause.places.iter().any(|place| is_here(&place.phrase))
+            || clause.objects.iter().any(is_here))
+}
+
+/// Whether a clause can only mean going somewhere: "turn left" can, "turn on the lamp" cannot.
+pub fn only_goes(clause: &Clause<'_>) -> bool {
+    !clause.verbs.is_empty() && clause.verbs.iter().all(|verb| verb.act == Act::Go)
+}
+
+/// Whether a clause may well have no goal of its own: going somewhere, taking what is put down later.
+pub fn is_mere_step(clause: &Clause<'_>) -> bool {
+    clause.negated
+        || only_goes(clause)
+        || clause.verbs.iter().any(|verb| {
+            matches!(verb.act, Act::Use | Act::Hold) || verb.act == Act::Place && clause.places.is_empty()
+        })
+}
+
+/// Whether a clause tells something of nothing here, beside clauses that say what to do: "guests are coming".
+pub fn only_tells(index: usize, clauses: &[Clause<'_>], lexicon: &Lexicon, scene: &Scene<'_>) -> bool {
+    let clause = &clauses[index];
+    let is_here = |phrase: &syntax::Phrase| match &phrase.head {
+        syntax::Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.has(kind)),
+        syntax::Head::Named(_) | syntax::Head::Pronoun { .. } | syntax::Head::Everything => true,
+        _ => false,
+    };
+    let says = |clause: &Clause<'_>| is_concrete(clause, lexicon, scene) && !clause.negated;
+    let others = clauses.iter().enumerate().filter(|(other, clause)| *other != index && says(clause));
+    clause.verbs.is_empty()
+        && clause.complement.is_empty()
+        && !clause.says_any(&["want", "need", "like", "love", "fancy", "should", "must"])
+        && clause.says_any(&[
+            "is", "are", "will", "am", "im", "coming", "was", "were", "has", "have", "be", "theyre",
+        ])
+        && !clause.objects.iter().any(is_here)
+        && others.count() > 1
+}
+
+/// "… and put it away": what is only done where what is said before it is done.
+pub fn goes_on_about_it(clause: &Clause<'_>) -> bool {
+    let it = |phrase: &syntax::Phrase| matches!(phrase.head, syntax::Head::Pronoun { .. });
+    clause.words.first().is_some_and(|word| word == "and")
+        && !clause.objects.is_empty()
+        && clause.objects.iter().all(it)
+        && !clause.says_any(&["otherwise", "else"])
+}

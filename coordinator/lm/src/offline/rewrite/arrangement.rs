@@ -1,0 +1,180 @@
+//! Words in their usual order: places said first, what is not wanted, one for each.
+
+use super::super::inflect::VerbForm;
+use super::{LONGEST_ASIDE, Rewriting};
+use crate::offline::clause::is_going;
+use crate::offline::syntax::{is_determiner, preposition};
+
+impl Rewriting<'_> {
+    /// Where a sentence, or a part of one behind "and" or "then", begins.
+    fn is_start(&self, index: usize) -> bool {
+        index == 0
+            || self.at(index - 1) == "."
+            || ["and", "then"].contains(&self.at(index - 1)) && (index == 1 || self.is_mark(index - 2))
+    }
+
+    /// "in the drawer go the forks", "on the plate I want the egg": the things, and then where.
+    pub(super) fn fronted_places(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            if !self.is_start(index) || preposition(&[self.at(index)]).is_none() {
+                index += 1;
+                continue;
+            }
+            let end = self.next_mark(index, &["."]);
+            let verb = (index + 2..end.min(index + LONGEST_ASIDE)).find(|&at| self.carries_place(at));
+            let plain = |verb: usize| (index..verb).all(|at| !self.is_mark(at) && !is_going(self.at(at)));
+            if let Some(verb) = verb.filter(|&verb| plain(verb)) {
+                let place: Vec<String> = (index..verb).map(|at| self.at(at).to_owned()).collect();
+                let place: Vec<&str> = place.iter().map(String::as_str).collect();
+                let goes = is_going(self.at(verb)) || self.at(verb) == "should";
+                let wish = if goes { verb + usize::from(self.at(verb) == "should") + 1 } else { verb };
+                // ", and the plate …": another thing is said.
+                let stop = (wish..end).find(|&at| self.another_follows(at)).unwrap_or(end);
+                let mut behind: Vec<&str> = if goes { vec!["go"] } else { Vec::new() };
+                behind.extend(place);
+                self.say(stop, stop, &behind);
+                self.say(index, wish, &[]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "go the forks", "should go the forks", "I want the egg": what a place said first belongs to.
+    fn carries_place(&self, at: usize) -> bool {
+        let going = is_going(self.at(at)) && (is_determiner(self.at(at + 1)) || self.at(at + 1) == "both");
+        let shall = self.at(at) == "should" && is_going(self.at(at + 1));
+        let person = ["i", "we", "you"].contains(&self.at(at))
+            && ["want", "need", "like", "put", "place"].contains(&self.at(at + 1))
+            && is_determiner(self.at(at + 2));
+        going || shall && is_determiner(self.at(at + 2)) || person
+    }
+
+    /// ", and the plate I want …", ", and in the drawer go …"
+    fn another_follows(&self, at: usize) -> bool {
+        let joined = self.at(at) == "," || self.at(at) == "and";
+        let from = at + 1 + usize::from(self.at(at) == "," && self.at(at + 1) == "and");
+        let person = (from..from + LONGEST_ASIDE)
+            .take_while(|&at| !self.is_mark(at) && self.at(at) != "and")
+            .any(|at| ["i", "we"].contains(&self.at(at)) && ["want", "need"].contains(&self.at(at + 1)));
+        joined && (preposition(&[self.at(from)]).is_some() && self.at(from) != "of" || person)
+    }
+
+    /// "the plate I want on the table": "I want the plate on the table".
+    pub(super) fn fronted_things(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let person = ["i", "we"].contains(&self.at(index))
+                && ["want", "need"].contains(&self.at(index + 1))
+                && (preposition(&[self.at(index + 2)]).is_some()
+                    || self.lexicon.adjective(&[self.at(index + 2)]).is_some());
+            let noun = self.noun_before(index).map(|noun| noun.len());
+            if let (true, Some(length)) = (person, noun) {
+                let first = index - length;
+                let first = first - usize::from(first > 0 && is_determiner(self.at(first - 1)));
+                if first == 0 || self.is_mark(first - 1) || self.at(first - 1) == "and" {
+                    let wish: Vec<String> = (index..index + 2).map(|at| self.at(at).to_owned()).collect();
+                    self.say(index, index + 2, &[]);
+                    self.say(first, first, &[&wish[0], &wish[1]]);
+                }
+            }
+            index += 1;
+        }
+    }
+
+    /// "instead of leaving the cup in the sink, …": only says what is spoken of; "… instead of on the table" says
+    /// nothing of what shall be.
+    pub(super) fn what_is_not_wanted(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let of = self.at(index + 1) == "of" && self.at(index) == "instead";
+            let than = self.at(index + 1) == "than" && self.at(index) == "rather";
+            if !of && !than {
+                index += 1;
+                continue;
+            }
+            let end = self.next_mark(index, &[",", "."]);
+            let first = index == 0 || self.at(index - 1) == ".";
+            let doing =
+                self.at(index + 2).ends_with("ing") && !self.lexicon.verbs(self.at(index + 2)).is_empty();
+            if first && doing && self.at(end) == "," {
+                let things = index + 3;
+                let place = (things..end)
+                    .find(|&at| preposition(&[self.at(at)]).is_some_and(|_| self.at(at) != "of"))
+                    .unwrap_or(end);
+                self.say(place, end + 1, &["."]);
+                self.say(index, things, &[]);
+            } else if first {
+                self.say(index, end + 1, &[]);
+            } else {
+                let comma = usize::from(self.at(index - 1) == ",");
+                self.say(index - comma, end, &[]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "the cup, the mug and the bowl each get their own shelf": one goes on a shelf, the next on another.
+    pub(super) fn one_for_each(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let own = self.at(index) == "own" && ["its", "their", "his"].contains(&self.at(index - 1));
+            let start = (0..index).rev().find(|&at| self.at(at) == ".").map_or(0, |at| at + 1);
+            let each = (start..index).find(|&at| self.at(at) == "each");
+            let (true, Some(each)) = (own, each) else {
+                index += 1;
+                continue;
+            };
+            let (first, verb) = (self.at(each + 1).to_owned(), each + 1);
+            let gets = ["get", "gets", "have", "has", "need", "needs"].contains(&first.as_str());
+            let goes = is_going(&first);
+            let place: Vec<String> = (verb + 1..index - 1).map(|at| self.at(at).to_owned()).collect();
+            let end = self.next_mark(index, &[",", ".", "and"]);
+            let home: Vec<String> = (index + 1..end).map(|at| self.at(at).to_owned()).collect();
+            if !(gets && place.is_empty() || goes && place.len() == 1) || home.is_empty() || each == start {
+                index += 1;
+                continue;
+            }
+            let joint = place.first().cloned().unwrap_or_else(|| "in".to_owned());
+            let things: Vec<String> = (start..each).map(|at| self.at(at).to_owned()).collect();
+            let mut plain: Vec<String> = vec!["put".to_owned()];
+            let listed = things.split(|word| word == "," || word == "and").filter(|thing| !thing.is_empty());
+            for (number, thing) in listed.enumerate() {
+                if number > 0 {
+                    plain.extend([",".to_owned(), "put".to_owned()]);
+                }
+                plain.extend(thing.iter().cloned());
+                plain.extend([joint.clone(), if number == 0 { "one" } else { "another" }.to_owned()]);
+                plain.extend(home.iter().cloned());
+            }
+            let plain: Vec<&str> = plain.iter().map(String::as_str).collect();
+            self.say(start, end, &plain);
+            index = start + plain.len();
+        }
+    }
+
+    /// "…, which then is carried to the table": said of the thing, in a sentence of its own.
+    pub(super) fn which_then(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            if self.at(index - 1) == "which"
+                && ["then", "afterwards", "in", "also", "finally"].contains(&self.at(index))
+                && !(self.at(index) == "in" && self.at(index + 1) != "turn")
+            {
+                let length = 1 + usize::from(self.at(index) == "in");
+                self.say(index, index + length, &[]);
+            }
+            // "which is carried to …" is what shall be.
+            let done = self.lexicon.verbs(self.at(index + 1));
+            if self.at(index - 1) == "which"
+                && ["is", "are", "gets", "get"].contains(&self.at(index))
+                && done.iter().any(|(form, _, _)| *form == VerbForm::Past)
+                && self.lexicon.adjective(&[self.at(index + 1)]).is_none()
+                && preposition(&[self.at(index + 2)]).is_some()
+            {
+                self.say(index, index + 1, &["should", "be"]);
+            }
+            index += 1;
+        }
+    }
+}

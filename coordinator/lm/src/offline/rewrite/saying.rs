@@ -1,0 +1,479 @@
+//! How something is said, put plainly: contractions, "can" after a noun, "is to be", "there is …", states of lists.
+
+use super::super::inflect::VerbForm;
+use super::{LONGEST_ASIDE, Rewriting, SHALL};
+use crate::offline::syntax::{is_determiner, preposition};
+
+/// Contractions with "not", apart.
+const DENIALS: [(&str, &str); 10] = [
+    ("isnt", "is"),
+    ("arent", "are"),
+    ("wasnt", "was"),
+    ("werent", "were"),
+    ("shouldnt", "should"),
+    ("mustnt", "must"),
+    ("shant", "shall"),
+    ("maynt", "may"),
+    ("oughtnt", "should"),
+    ("hasnt", "has"),
+];
+
+/// Verbs that say no more of a thing than where it is.
+const RESTING: [&str; 8] = ["lie", "stand", "sit", "rest", "remain", "wait", "live", "hang"];
+
+/// How things are where they are.
+const LYING: [&str; 12] = [
+    "sitting", "lying", "standing", "located", "placed", "found", "resting", "kept", "stored", "situated",
+    "laying", "waiting",
+];
+
+impl Rewriting<'_> {
+    /// "isn't" is "is not", "youve" before what was done is "you have", "having cut" is "once you have cut".
+    pub(super) fn contractions(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let word = self.at(index).to_owned();
+            let done = self.is_done(index + 1);
+            if let Some((_, first)) = DENIALS.iter().find(|(short, _)| *short == word) {
+                self.say(index, index + 1, &[first, "not"]);
+            } else if let (Some(who), true) = (word.strip_suffix("ve"), done)
+                && ["you", "i", "we", "they"].contains(&who)
+            {
+                self.say(index, index + 1, &[who, "have"]);
+            } else if word == "that"
+                && self.tokens[index].typed.to_lowercase().ends_with("s")
+                && self.noun_before(index).is_some()
+                && preposition(&[self.at(index + 1)]).is_some()
+            {
+                // "the cup that's on the desk"
+                self.say(index, index + 1, &["that", "is"]);
+            } else if word == "having" && done && (index == 0 || self.is_mark(index - 1)) {
+                self.say(index, index + 1, &["once", "you", "have"]);
+            }
+            index += 1;
+        }
+    }
+
+    /// Whether something that was done stands at a place, and what it was done to.
+    fn is_done(&self, index: usize) -> bool {
+        let past = self.lexicon.verbs(self.at(index)).iter().any(|(form, _, _)| *form == VerbForm::Past);
+        let same = ["cut", "put", "set", "shut"].contains(&self.at(index));
+        (past || same) && !self.is_mark(index + 1)
+    }
+
+    /// "the bowl can go …": no tin; "the remote has to lie …", "the book is to lie …": it shall be there.
+    pub(super) fn modals(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let before = self.at(index - 1);
+            let subject = before == "they" || before == "it" || self.noun_before(index).is_some();
+            let person = ["i", "we", "he", "she", "nobody", "who"].contains(&before);
+            let (word, next) = (self.at(index), self.at(index + 1));
+            if person && word == "can" {
+                self.say(index, index + 1, &["could"]);
+                index += 1;
+                continue;
+            }
+            let resting = |word: &str| RESTING.contains(&word);
+            if subject
+                && word == "can"
+                && (["go", "stay", "be", "come", "move"].contains(&next) || resting(next))
+            {
+                self.say(index, index + 1, &["should"]);
+            } else if ["is", "are"].contains(&word) && self.starts(index + 1, &["not", "to"]) {
+                self.say(index, index + 3, &["should", "not"]);
+            } else if ["is", "are", "has", "have", "needs", "need", "ought"].contains(&word)
+                && next == "to"
+                && (resting(self.at(index + 2))
+                    || word == "is" && self.at(index + 2) == "go"
+                    || self.at(index + 2) == "be"
+                        && (preposition(&[self.at(index + 3)]).is_some() || self.at(index + 3) == "there"))
+            {
+                self.say(index, index + 2, &["should"]);
+            }
+            if self.at(index) == "and"
+                && resting(self.at(index + 1))
+                && preposition(&[self.at(index + 2)]).is_some()
+                && self.lexicon.adjective(&[self.at(index - 1)]).is_some()
+            {
+                // "must be clean and stand on the shelf"
+                self.say(index + 1, index + 2, &["they", "should", "be"]);
+            } else if self.at(index) == "to"
+                && resting(self.at(index + 1))
+                && preposition(&[self.at(index + 2)]).is_some()
+            {
+                self.say(index + 1, index + 2, &["be"]);
+            } else if self.starts(index, &["returned", "to"])
+                && [",", "and", "be", "is", "are", "then"].contains(&self.at(index - 1))
+            {
+                self.say(index, index + 2, &["put", "in"]);
+            }
+            let resting_so = |at: usize| {
+                preposition(&[self.at(at)]).is_some() || self.lexicon.adjective(&[self.at(at)]).is_some()
+            };
+            if SHALL.contains(&self.at(index)) && self.at(index) != "has" && self.at(index) != "have" {
+                let at = index + 1 + usize::from(self.at(index + 1) == "not");
+                if resting(self.at(at)) && resting_so(at + 1) {
+                    self.say(at, at + 1, &["be"]);
+                }
+            }
+            index += 1;
+        }
+    }
+
+    /// "that there is paper on the holder", "there should be a cup in the sink": the thing is to be there.
+    pub(super) fn existence(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let opens = index == 0 || [",", ".", "and"].contains(&self.at(index - 1));
+            let that = index > 0 && ["that", "sure", "ensure"].contains(&self.at(index - 1));
+            let wished = ["should", "must", "shall", "needs", "has"].contains(&self.at(index + 1));
+            if self.at(index) != "there" || !(that || opens && wished) {
+                index += 1;
+                continue;
+            }
+            let being = (index + 1..)
+                .take_while(|&at| {
+                    ["should", "must", "shall", "needs", "has", "to", "be", "is", "are", "always"]
+                        .contains(&self.at(at))
+                })
+                .count();
+            // "there's" has lost its "is" already.
+            let thing = index + 1 + being;
+            let end = self.next_mark(thing, &[",", "."]);
+            let place =
+                (thing..end).find(|&at| preposition(&[self.at(at)]).is_some_and(|_| self.at(at) != "of"));
+            if let Some(place) = place.filter(|&place| place > thing && (being > 0 || that)) {
+                let shall: &[&str] = if that { &["is"] } else { &["should", "be"] };
+                self.say(place, place, shall);
+                self.say(index, thing, &[]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "none of the cups", "each of the cups", "the cup itself", "that are sitting in the sink"
+    pub(super) fn quantities(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            if self.starts(index, &["none", "of"]) && is_determiner(self.at(index + 2)) {
+                self.say(index, index + 3, &["no"]);
+            } else if index > 0
+                && ["itself", "themselves"].contains(&self.at(index))
+                && self.noun_before(index).is_some()
+            {
+                self.say(index, index + 1, &[]);
+                continue;
+            } else if self.at(index) == "1" && self.lexicon.noun(&[self.at(index + 1)]).is_some() {
+                self.say(index, index + 1, &["one"]);
+            } else if self.at(index) == "plus" {
+                self.say(index, index + 1, &["and"]);
+            } else if ["everything", "anything"].contains(&self.at(index)) && self.at(index + 1) == "else" {
+                self.say(index, index + 2, &["the", "rest"]);
+            } else if ["that", "which"].contains(&self.at(index))
+                && ["sits", "stands", "lies", "rests", "hangs", "sit", "stand", "lie"]
+                    .contains(&self.at(index + 1))
+                && preposition(&[self.at(index + 2)]).is_some()
+            {
+                // "the tomato that sits on the counter"
+                self.say(index + 1, index + 2, &["is"]);
+            } else if ["that", "which"].contains(&self.at(index))
+                && ["is", "are"].contains(&self.at(index + 1))
+                && LYING.contains(&self.at(index + 2))
+                && preposition(&[self.at(index + 3)]).is_some()
+            {
+                self.say(index + 2, index + 3, &[]);
+            } else if index > 0
+                && ["lined", "stacked", "piled", "set", "laid"].contains(&self.at(index))
+                && ["up", "out"].contains(&self.at(index + 1))
+                && preposition(&[self.at(index + 2)]).is_some()
+                && self.noun_before(index).is_some()
+            {
+                self.say(index, index + 2, &[]);
+            } else if index > 0
+                && LYING.contains(&self.at(index))
+                && preposition(&[self.at(index + 1)]).is_some_and(|_| self.at(index + 1) != "of")
+                && self.noun_before(index).is_some()
+            {
+                // "a fork placed in the sink": a fork in it.
+                self.say(index, index + 1, &[]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "the shelf where the vase was": which shelf is known without it; "the lid is down": closed.
+    pub(super) fn whereabouts(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let end = self.next_mark(index, &[",", "."]);
+            let was = (index + 2..end.min(index + LONGEST_ASIDE))
+                .find(|&at| ["was", "is", "were", "are", "stood", "stands", "sits"].contains(&self.at(at)));
+            let who = is_determiner(self.at(index + 1)) || ["it", "they"].contains(&self.at(index + 1));
+            if let Some(was) = was.filter(|_| self.at(index) == "where" && who)
+                && self.noun_before(index).is_some()
+            {
+                let more = usize::from(["before", "now", "kept", "standing"].contains(&self.at(was + 1)));
+                self.say(index, was + 1 + more, &[]);
+            }
+            let way = match self.at(index) {
+                "down" => "closed",
+                "up" => "open",
+                _ => "",
+            };
+            let ends = self.is_mark(index + 1)
+                || ["and", "by", "at", "when", "before", "after", "once"].contains(&self.at(index + 1));
+            let told = ["is", "are", "be", "stay", "stays"].contains(&self.at(index - 1))
+                && (index.saturating_sub(4)..index).any(|at| self.folds_down(at));
+            if !way.is_empty() && ends && (told || self.folds_down(index)) {
+                self.say(index, index + 1, &[way]);
+            }
+            index += 1;
+        }
+    }
+
+    /// Whether the noun that ends before a place names what is closed by letting it down.
+    fn folds_down(&self, end: usize) -> bool {
+        const FOLDS: [&str; 2] = ["Toilet", "Blinds"];
+        let noun = self.noun_before(end).and_then(|words| {
+            let words: Vec<&str> = words.iter().map(String::as_str).collect();
+            self.lexicon.noun(&words).map(|(noun, _)| noun.kinds.clone())
+        });
+        noun.is_some_and(|kinds| kinds.iter().any(|kind| FOLDS.contains(&kind.as_str())))
+    }
+
+    /// "the mug, filled with water, to the table": no aside, what the mug shall hold.
+    pub(super) fn contents(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let holds = ["filled", "full", "with", "containing", "holding"].contains(&self.at(index + 1));
+            let closes = self.next_mark(index + 1, &[",", "."]);
+            let behind = self.at(closes + 1);
+            let goes_on =
+                preposition(&[behind]).is_some() || behind == "and" && is_determiner(self.at(closes + 2));
+            if self.at(index) == ","
+                && holds
+                && self.at(closes) == ","
+                && closes - index <= LONGEST_ASIDE
+                && goes_on
+                && self.noun_before(index).is_some()
+            {
+                self.say(closes, closes + 1, &[]);
+                self.say(index, index + 1, &[]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "the bread that you find on the counter", "the cup I left in the sink": that is there.
+    pub(super) fn where_one_finds_it(&mut self) {
+        const SEEN: [&str; 12] =
+            ["find", "found", "see", "saw", "left", "put", "keep", "kept", "have", "had", "placed", "stored"];
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let that = usize::from(["that", "which"].contains(&self.at(index)));
+            let person = ["you", "i", "we", "they"].contains(&self.at(index + that));
+            let auxiliary = usize::from(["will", "can", "have", "had"].contains(&self.at(index + that + 1)));
+            let verb = index + that + 1 + auxiliary;
+            if person
+                && SEEN.contains(&self.at(verb))
+                && preposition(&[self.at(verb + 1)]).is_some()
+                && self.noun_before(index).is_some()
+            {
+                self.say(index, verb + 1, &["that", "is"]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "the fridge should contain the egg and the milk": those should be in it.
+    pub(super) fn containing(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let shall = usize::from(["should", "must", "shall"].contains(&self.at(index)));
+            let holds = ["contain", "contains", "hold", "holds"].contains(&self.at(index + shall))
+                && (is_determiner(self.at(index + shall + 1)) || shall == 1);
+            let vessel = self.noun_before(index).map_or(0, |noun| noun.len());
+            let first = index - vessel;
+            let (true, true) = (holds && vessel > 0, first > 0 && is_determiner(self.at(first - 1))) else {
+                index += 1;
+                continue;
+            };
+            let things = index + shall + 1;
+            let end = (things..self.tokens.len())
+                .find(|&at| self.at(at) == "." || self.at(at) == "that" || self.another_verb(at))
+                .unwrap_or(self.tokens.len());
+            let end =
+                (things..end).rev().find(|&at| ![",", "and"].contains(&self.at(at))).map_or(end, |at| at + 1);
+            let mut behind = vec!["should".to_owned(), "be".to_owned(), "in".to_owned()];
+            behind.extend((first - 1..index).map(|at| self.at(at).to_owned()));
+            let behind: Vec<&str> = behind.iter().map(String::as_str).collect();
+            self.say(end, end, &behind);
+            self.say(first - 1, things, &[]);
+            index = end;
+        }
+    }
+
+    /// ", turn …", "and the light should …": what follows is said of something else.
+    fn another_verb(&self, at: usize) -> bool {
+        if ![",", "and"].contains(&self.at(at)) {
+            return false;
+        }
+        let end = self.next_mark(at + 1, &[",", "."]);
+        let next = self.at(at + 1 + usize::from(self.at(at + 1) == "and"));
+        let ordered = !self.lexicon.verbs(next).is_empty() && self.lexicon.noun(&[next]).is_none();
+        ordered
+            || (at + 1..end)
+                .any(|at| SHALL.contains(&self.at(at)) || ["contains", "holds"].contains(&self.at(at)))
+    }
+
+    /// "everything you cut", "whatever is washed": all of them.
+    pub(super) fn what_was_done(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let all = ["everything", "all", "whatever", "anything"].contains(&self.at(index));
+            let that = usize::from(self.at(index + 1) == "that");
+            let person = ["you", "we", "youve", "weve"].contains(&self.at(index + 1 + that));
+            let being =
+                ["is", "was", "has"].contains(&self.at(index + 1 + that)) && self.at(index) == "whatever";
+            let more = (index + 2 + that..)
+                .take_while(|&at| ["have", "just", "already", "been", "had"].contains(&self.at(at)))
+                .count();
+            let done = index + 2 + that + more;
+            let particle = usize::from(["up", "out"].contains(&self.at(done + 1)));
+            let past = self.lexicon.verbs(self.at(done)).iter().any(|(form, _, _)| *form == VerbForm::Past)
+                || ["cut", "put"].contains(&self.at(done));
+            let closes = done + 1 + particle;
+            let behind = self.at(closes);
+            let ends = self.is_mark(closes)
+                || preposition(&[behind]).is_some()
+                || SHALL.contains(&behind)
+                || crate::offline::clause::is_going(behind);
+            if all && (person || being) && past && ends {
+                self.say(index, closes, &["all", "of", "them"]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "the bowl which you then put in the fridge": put the bowl in the fridge.
+    pub(super) fn orders_in_relatives(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let which = ["which", "that"].contains(&self.at(index)) && self.at(index + 1) == "you";
+            let then = ["then", "also", "afterwards", "should", "must"].contains(&self.at(index + 2));
+            let verb = self.at(index + 3).to_owned();
+            let placed = preposition(&[self.at(index + 4)]).is_some();
+            let comma = usize::from(self.at(index - 1) == ",");
+            let noun = self.noun_before(index - comma);
+            if let (true, Some(noun)) =
+                (which && then && placed && !self.lexicon.verbs(&verb).is_empty(), noun)
+            {
+                let mut order: Vec<&str> = vec![".", verb.as_str(), "the"];
+                order.extend(noun.iter().map(String::as_str));
+                self.say(index - comma, index + 4, &order);
+            }
+            index += 1;
+        }
+    }
+
+    /// "if the lamp is off turn it on": what holds, and then what is to be done.
+    pub(super) fn conditions(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let end = self.next_mark(index, &[",", "."]);
+            let is =
+                (index + 1..end.min(index + LONGEST_ASIDE)).find(|&at| ["is", "are"].contains(&self.at(at)));
+            if let Some(is) = is.filter(|_| self.at(index) == "if") {
+                let state = is + 1 + usize::from(self.at(is + 1) == "not");
+                let next = self.at(state + 2);
+                let ordered = self.lexicon.adjective(&[self.at(state)]).is_some()
+                    && self
+                        .lexicon
+                        .verbs(self.at(state + 1))
+                        .iter()
+                        .any(|(form, _, _)| *form == VerbForm::Base)
+                    && (is_determiner(next) || ["it", "them"].contains(&next));
+                if ordered {
+                    self.say(state + 1, state + 1, &[","]);
+                }
+            }
+            // "wash it if it is dirty, otherwise …": the condition first.
+            let otherwise = self.at(end) == "," && ["otherwise", "else"].contains(&self.at(end + 1));
+            if self.at(index) == "if" && index > 0 && !self.is_mark(index - 1) && otherwise {
+                let start = (0..index).rev().find(|&at| self.is_mark(at)).map_or(0, |at| at + 1);
+                let condition: Vec<String> = (index..end).map(|at| self.at(at).to_owned()).collect();
+                let mut condition: Vec<&str> = condition.iter().map(String::as_str).collect();
+                condition.push(",");
+                let thing: Vec<String> = (start + 1..index).map(|at| self.at(at).to_owned()).collect();
+                let named = thing.first().is_some_and(|word| is_determiner(word));
+                if named && condition.get(1) == Some(&"it") {
+                    let is = usize::from(condition.get(2) != Some(&"is"));
+                    let is: &[&str] = if is == 1 { &["is"] } else { &[] };
+                    condition.splice(1..2, thing.iter().map(String::as_str).chain(is.iter().copied()));
+                    self.say(start + 1, end, &["it"]);
+                } else {
+                    if condition.get(1) == Some(&"it") && condition.get(2) != Some(&"is") {
+                        condition.insert(2, "is");
+                    }
+                    self.say(index, end, &[]);
+                }
+                self.say(start, start, &condition);
+                index = start + condition.len();
+            }
+            index += 1;
+        }
+    }
+
+    /// ", if it is dirty, wash it, otherwise …": a sentence of its own.
+    pub(super) fn alternatives(&mut self) {
+        for index in 1..self.tokens.len() {
+            let closes = self.next_mark(index, &[",", "."]);
+            let done = self.next_mark(closes + 1, &[",", "."]);
+            let otherwise = ["otherwise", "else"].contains(&self.at(done + 1));
+            if self.at(index) == "if" && self.at(index - 1) == "," && otherwise {
+                self.say(index - 1, index, &["."]);
+            }
+        }
+    }
+
+    /// "unless the fridge is closed": if it is not.
+    pub(super) fn exclusions(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let end = self.next_mark(index, &[",", "."]);
+            let is =
+                (index + 1..end.min(index + LONGEST_ASIDE)).find(|&at| ["is", "are"].contains(&self.at(at)));
+            if let Some(is) = is.filter(|&is| self.at(index) == "unless" && self.at(is + 1) != "not") {
+                self.say(is + 1, is + 1, &["not"]);
+                self.say(index, index + 1, &["if"]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "turn it on if it is not already", "unless it is clean already": as it shall be anyway.
+    pub(super) fn needless_conditions(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let end = self.next_mark(index, &[",", "."]).min(self.tokens.len());
+            let said: Vec<&str> = (index..end).map(|at| self.at(at)).collect();
+            let comma = usize::from(self.at(index - 1) == ",");
+            let (opening, rest) = match said.as_slice() {
+                [opening @ ("if" | "unless"), "it" | "they", "is" | "are" | "has" | "have", rest @ ..]
+                | [opening @ ("if" | "unless"), "it" | "theyre", rest @ ..] => (*opening, rest),
+                ["if", rest @ ..] if rest.first() == Some(&"not") => ("if", rest),
+                _ => ("", &[][..]),
+            };
+            let denied = rest.first() == Some(&"not");
+            let already = rest.contains(&"already") || rest.contains(&"yet");
+            let needless = rest.len() <= LONGEST_ASIDE
+                && already
+                && (opening == "if" && denied || opening == "unless" && !denied);
+            if needless && !self.is_mark(index - 1 - comma) {
+                self.say(index - comma, end, &[]);
+            }
+            index += 1;
+        }
+    }
+}

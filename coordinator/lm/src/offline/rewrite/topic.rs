@@ -1,0 +1,260 @@
+//! What is only spoken of: things to be found, things that need nothing, lists announced by "these".
+
+use super::{LONGEST_ASIDE, Rewriting, SHALL};
+use crate::offline::clause::is_going;
+use crate::offline::syntax::{is_determiner, preposition};
+
+/// What says of a thing only that it is there.
+const FOUND: [&[&str]; 8] = [
+    &["youll", "find"],
+    &["you", "will", "find"],
+    &["you", "should", "find"],
+    &["you", "could", "find"],
+    &["you", "can", "find"],
+    &["you", "may", "find"],
+    &["youll", "see"],
+    &["you", "will", "see"],
+];
+
+/// What says that something need not be done.
+const NEEDLESS: [&[&str]; 12] = [
+    &["no", "need", "to"],
+    &["there", "is", "no", "need", "to"],
+    &["there", "no", "need", "to"],
+    &["you", "dont", "need", "to"],
+    &["you", "dont", "have", "to"],
+    &["you", "do", "not", "need", "to"],
+    &["you", "do", "not", "have", "to"],
+    &["you", "neednt"],
+    &["dont", "bother", "to"],
+    &["dont", "bother"],
+    &["do", "not", "bother"],
+    &["never", "mind"],
+];
+
+impl Rewriting<'_> {
+    fn begins(&self, index: usize) -> bool {
+        index == 0 || [",", ".", "and", "but"].contains(&self.at(index - 1))
+    }
+
+    /// "you'll find the pot in the cabinet", "no need to wash the plate": the pot, the plate.
+    pub(super) fn topics(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let found = FOUND.iter().find(|said| self.starts(index, said)).map(|said| said.len());
+            let needless = NEEDLESS.iter().find(|said| self.starts(index, said)).map(|said| said.len() + 1);
+            let unwanted = (self.starts(index, &["i", "dont", "want"])
+                || self.starts(index, &["we", "dont", "want"]))
+                && (index + 3..self.tokens.len())
+                    .any(|at| self.starts(at, &["want", "them"]) || self.starts(at, &["want", "it"]));
+            let length = found.or(needless).or(unwanted.then_some(3));
+            if let (true, Some(length)) = (self.begins(index), length)
+                && is_determiner(self.at(index + length))
+            {
+                let end = self.next_mark(index, &[",", "."]);
+                let things = index + length;
+                let place = (things..end)
+                    .find(|&at| preposition(&[self.at(at)]).is_some_and(|_| self.at(at) != "of"))
+                    .unwrap_or(end);
+                self.say(place, end + 1, &["."]);
+                self.say(index, things, &[]);
+                let joined = index > 0 && ["and", "but"].contains(&self.at(index - 1));
+                if joined {
+                    self.say(index - 1, index, &["."]);
+                }
+            }
+            index += 1;
+        }
+    }
+
+    /// "put the following in the box: the cup and the mug", "stack these on the table - cups, plates -": the things
+    /// themselves.
+    pub(super) fn announced_lists(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let length = match (self.at(index), self.at(index + 1), self.at(index + 2)) {
+                ("the", "following", "things" | "items" | "objects") => 3,
+                (number, "things" | "items" | "objects", _)
+                    if (preposition(&[self.at(index + 2)]).is_some_and(|_| self.at(index + 2) != "to")
+                        || self.is_opening(index + 2))
+                        && (["several", "some", "few", "these"].contains(&number)
+                            || crate::offline::inflect::number(number).is_some()) =>
+                {
+                    2
+                }
+                ("the", "following", _) | ("these", "things" | "items" | "objects", _) => 2,
+                ("these", next, _)
+                    if self.mark_at(index + 1) || preposition(&[next]).is_some() || is_going(next) =>
+                {
+                    1
+                }
+                _ => 0,
+            };
+            let opens = (index..self.tokens.len().min(index + LONGEST_ASIDE + 4))
+                .find(|&at| self.is_opening(at))
+                .filter(|_| length > 0);
+            if let Some(opens) = opens {
+                let typed = self.tokens[opens].typed.clone();
+                let closes = (opens + 1..self.tokens.len())
+                    .find(|&at| self.at(at) == "." || typed != ":" && self.is_closing(at, &typed))
+                    .unwrap_or(self.tokens.len());
+                let list: Vec<String> = (opens + 1..closes).map(|at| self.at(at).to_owned()).collect();
+                let list: Vec<&str> = list.iter().map(String::as_str).collect();
+                let after = usize::from(self.tokens.get(closes).is_some_and(|token| token.text == ","));
+                self.say(opens, closes + after, &[]);
+                self.say(index, index + length, &list);
+                index += list.len();
+            }
+            index += 1;
+        }
+    }
+
+    /// "my stuff (the phone and the keys)": the phone and the keys.
+    pub(super) fn listed_in_brackets(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let general = ["stuff", "things", "items", "belongings", "junk", "bits", "objects", "everything"]
+                .contains(&self.at(index - 1));
+            let most =
+                self.at(index - 1).ends_with("est") && self.lexicon.noun(&[self.at(index - 1)]).is_none();
+            let typed = self.tokens[index].typed.clone();
+            let set_apart = typed != ":" && self.is_opening(index);
+            if (general || most) && self.at(index) == "," && set_apart {
+                let closes = (index + 1..self.tokens.len()).find(|&at| self.is_closing(at, &typed));
+                if let Some(closes) = closes {
+                    let back = (index.saturating_sub(4)..index - 1).rev();
+                    let article =
+                        back.take_while(|&at| !self.is_mark(at)).find(|&at| is_determiner(self.at(at)));
+                    let first = article.unwrap_or(index - 1);
+                    self.say(closes, closes + 1, &[]);
+                    self.say(first, index + 1, &[]);
+                }
+            }
+            index += 1;
+        }
+    }
+
+    fn mark_at(&self, index: usize) -> bool {
+        [",", "."].contains(&self.at(index))
+    }
+
+    /// ":", " - " or "(": a list begins.
+    fn is_opening(&self, at: usize) -> bool {
+        let typed = self.tokens.get(at).map_or("", |token| token.typed.as_str());
+        [":", "-", "(", "\u{2013}", "\u{2014}"].contains(&typed)
+    }
+
+    fn is_closing(&self, at: usize, opening: &str) -> bool {
+        let typed = self.tokens.get(at).map_or("", |token| token.typed.as_str());
+        if opening == "(" { typed == ")" } else { typed == opening }
+    }
+
+    /// "the first goes in the drawer, the second on the desk": the former, the latter.
+    pub(super) fn first_and_second(&mut self) {
+        let stands = |this: &Self, at: usize, word: &str| {
+            this.starts(at, &["the", word]) && {
+                let next = this.at(at + 2);
+                is_going(next) || SHALL.contains(&next) || preposition(&[next]).is_some_and(|_| next != "of")
+            }
+        };
+        let first = (0..self.tokens.len()).find(|&at| stands(self, at, "first"));
+        let Some(first) = first else { return };
+        if let Some(second) = (first..self.tokens.len()).find(|&at| stands(self, at, "second")) {
+            self.say(first + 1, first + 2, &["former"]);
+            self.say(second + 1, second + 2, &["latter"]);
+        }
+    }
+
+    /// "off with the lights", "do wash the cup", "whereas", "stays where it is", "by the time I am back"
+    pub(super) fn turns_of_phrase(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let opens = self.begins(index) || index > 0 && self.at(index - 1) == "then";
+            if opens && ["off", "on"].contains(&self.at(index)) && self.at(index + 1) == "with" {
+                let particle = self.at(index).to_owned();
+                self.say(index, index + 2, &["turn", &particle]);
+            } else if opens
+                && self.at(index) == "do"
+                && self.lexicon.noun(&[self.at(index + 1)]).is_none()
+                && self.is_base_verb(index + 1)
+            {
+                self.say(index, index + 1, &[]);
+            } else if self.starts(index, &["next", "to", "each", "other"])
+                || self.starts(index, &["side", "by", "side"])
+            {
+                let comma = usize::from(index > 0 && self.at(index - 1) == ",");
+                let length = if self.at(index) == "side" { 3 } else { 4 };
+                self.say(index - comma, index + length, &[]);
+                index -= comma;
+            } else if self.at(index) == "included"
+                && self.noun_before(index).is_some()
+                && self.mark_at(index + 1)
+            {
+                let start = (0..index).rev().find(|&at| self.mark_at(at)).unwrap_or(0);
+                self.say(start, index + 1, &[]);
+                index = start;
+            } else if ["everything", "all"].contains(&self.at(index)) && self.at(index + 1) == "that" {
+                let is = usize::from(["is", "are"].contains(&self.at(index + 2)));
+                let state = ["on", "open", "running", "off"].contains(&self.at(index + 2 + is));
+                if state && self.is_mark(index + 3 + is) {
+                    self.say(index, index + 3 + is, &["everything"]);
+                }
+            } else if self.at(index) == "whereas" {
+                self.say(index, index + 1, &["and"]);
+            } else if self.starts(index, &["by", "the", "time"]) {
+                let end = self.next_mark(index, &[",", "."]);
+                self.say(index, end, &[]);
+            } else if ["stay", "stays", "remain", "remains"].contains(&self.at(index)) {
+                self.stays(index);
+            } else if self.at(index) == "edible"
+                && ["everything", "anything"].contains(&self.at(index.wrapping_sub(1)))
+            {
+                self.say(index - 1, index + 1, &["all", "the", "food"]);
+            } else if self.at(index) == "for"
+                && index > 0
+                && ["want", "need", "like", "love"].contains(&self.at(index - 1))
+                && (index..self.next_mark(index, &["."])).any(|at| self.starts(at, &["to", "be"]))
+            {
+                self.say(index, index + 1, &[]);
+            }
+            index += 1;
+        }
+    }
+
+    fn is_base_verb(&self, at: usize) -> bool {
+        use crate::offline::inflect::VerbForm;
+        self.lexicon.verbs(self.at(at)).iter().any(|(form, _, _)| *form == VerbForm::Base)
+    }
+
+    /// "stays where it is", "stay put": stays.
+    fn stays(&mut self, index: usize) {
+        let next = index + 1;
+        let length = match (self.at(next), self.at(next + 1), self.at(next + 2)) {
+            ("where" | "as", "it" | "they", "is" | "are") => 3,
+            ("right" | "exactly" | "just", "where", _) => 4,
+            ("put" | "there" | "untouched" | "alone", _, _) if self.is_mark(next + 1) => 1,
+            _ => 0,
+        };
+        if length > 0 && (self.is_mark(next + length) || ["and", "but"].contains(&self.at(next + length))) {
+            self.say(next, next + length, &[]);
+        }
+    }
+
+    /// "with the plate on the table": the plate goes on the table.
+    pub(super) fn with_something_somewhere(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let end = self.next_mark(index + 1, &[",", "."]);
+            let opens =
+                self.at(index - 1) == "," && self.at(index) == "with" && is_determiner(self.at(index + 1));
+            let place =
+                (index + 2..end).find(|&at| ["in", "on", "inside", "onto", "into"].contains(&self.at(at)));
+            let named =
+                place.is_some_and(|at| is_determiner(self.at(at + 1)) && self.noun_before(at).is_some());
+            if opens && named && self.is_mark(end) && self.noun_before(end).is_some() {
+                self.say(index, index + 1, &["and", "put"]);
+            }
+            index += 1;
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! Wishes said as questions or as needs, and words that say nothing of the goal: said as what shall be.
+
+use super::super::inflect::VerbForm;
+use super::{LONGEST_ASIDE, Rewriting};
+use crate::offline::syntax::{is_determiner, preposition};
+
+/// "I could do with …": I want it.
+const LONGINGS: [&[&str]; 16] = [
+    &["id", "prefer"],
+    &["i", "would", "prefer"],
+    &["id", "rather", "have"],
+    &["i", "would", "rather", "have"],
+    &["id", "kill", "for"],
+    &["i", "would", "kill", "for"],
+    &["i", "could", "kill", "for"],
+    &["i", "could", "murder"],
+    &["i", "could", "do", "with"],
+    &["i", "could", "use"],
+    &["i", "could", "really", "use"],
+    &["id", "give", "anything", "for"],
+    &["i", "am", "dying", "for"],
+    &["im", "dying", "for"],
+    &["i", "am", "in", "need", "of"],
+    &["im", "in", "need", "of"],
+];
+
+impl Rewriting<'_> {
+    /// "could the kettle be filled?": the kettle should be filled.
+    pub(super) fn questions(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let opens = index == 0 || [".", ","].contains(&self.at(index - 1));
+            let asks = ["could", "can", "may", "might", "would"].contains(&self.at(index));
+            let end = self.next_mark(index, &["."]);
+            let be = (index + 2..end.min(index + LONGEST_ASIDE + 2)).find(|&at| self.at(at) == "be");
+            if let Some(be) = be.filter(|_| opens && asks && is_determiner(self.at(index + 1))) {
+                self.say(be, be, &["should"]);
+                self.say(index, index + 1, &[]);
+                // "… and the plant be watered"
+                let mut at = be + 1;
+                while at < end {
+                    if self.at(at) == "be" && self.at(at - 1) != "should" && self.noun_before(at).is_some() {
+                        self.say(at, at, &["should"]);
+                        at += 1;
+                    }
+                    at += 1;
+                }
+            }
+            index += 1;
+        }
+    }
+
+    /// "the salt is needed on the table", "I could do with a cup", "whatever is on the desk", "do exactly the same"
+    pub(super) fn needs(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let longing = LONGINGS.iter().find(|said| self.starts(index, said)).map(|said| said.len());
+            let placed =
+                |this: &Self, at: usize| preposition(&[this.at(at)]).is_some_and(|_| this.at(at) != "of");
+            if let Some(length) = longing {
+                self.say(index, index + length, &["i", "want"]);
+            } else if ["is", "are"].contains(&self.at(index))
+                && ["needed", "wanted", "required"].contains(&self.at(index + 1))
+                && placed(self, index + 2)
+                && self.at(index + 2) != "for"
+            {
+                self.say(index, index + 2, &["should", "be"]);
+            } else if ["whatever", "what"].contains(&self.at(index))
+                && ["is", "stands", "lies", "sits"].contains(&self.at(index + 1))
+                && placed(self, index + 2)
+            {
+                self.say(index, index + 2, &["everything"]);
+            } else if self.at(index) == "exactly" && self.at(index + 1) == "the" {
+                self.say(index, index + 1, &[]);
+            } else if self.at(index) == "dried" && index > 0 && ["be", ","].contains(&self.at(index - 1)) {
+                // What is dry is no state: "must be dried and put away".
+                let joins = (index + 1..).take_while(|&at| [",", "and"].contains(&self.at(at))).count();
+                let next = self.at(index + 1 + joins);
+                let past = self.lexicon.verbs(next).iter().any(|(form, _, _)| *form == VerbForm::Past);
+                if joins > 0 && (past || ["put", "cut", "set"].contains(&next)) {
+                    self.say(index, index + 1 + joins, &[]);
+                }
+            }
+            index += 1;
+        }
+    }
+
+    /// "… when they're clean", "… once it is cold": in their order anyway.
+    pub(super) fn ready(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let joins = ["when", "once"].contains(&self.at(index));
+            let (who, length) = match (self.at(index + 1), self.at(index + 2)) {
+                ("it" | "they" | "everything" | "all", "is" | "are") => (true, 3),
+                ("theyre" | "it", _) => (true, 2),
+                _ => (false, 0),
+            };
+            let state = self.lexicon.adjective(&[self.at(index + length)]).is_some();
+            let ends = self.is_mark(index + length + 1);
+            if joins && who && state && ends && !self.is_mark(index - 1) {
+                self.say(index, index + length + 1, &[]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "the cup the plate and the fork": a list without commas; "the kitchen's clock": the clock.
+    pub(super) fn bare_lists(&mut self) {
+        let mut index = 2;
+        while index < self.tokens.len() {
+            let length = self.noun_before(index).map_or(0, |noun| noun.len());
+            let named = length > 0
+                && index > length
+                && ["the", "a", "an", "my"].contains(&self.at(index - length - 1));
+            let another = ["the", "a", "an", "my"].contains(&self.at(index))
+                && self.lexicon.noun(&[self.at(index + 1)]).is_some();
+            if named && another {
+                self.say(index, index, &[","]);
+            }
+            let room = self.lexicon.is_small("rooms", &[self.at(index - 1)]);
+            if self.at(index) == crate::offline::text::POSSESSIVE && room && is_determiner(self.at(index - 2))
+            {
+                self.say(index - 1, index + 1, &[]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "…, drawers shut": those should be shut.
+    pub(super) fn states_said_last(&mut self) {
+        let mut index = 2;
+        while index < self.tokens.len() {
+            let told = self.lexicon.adjective(&[self.at(index)]).is_some_and(|state| {
+                state.set.contains_key("isOpen") && preposition(&[self.at(index)]).is_none()
+            });
+            let length = self.noun_before(index).map_or(0, |noun| noun.len());
+            if !told || length == 0 || !self.is_mark(index + 1) || index < length + 1 {
+                index += 1;
+                continue;
+            }
+            let first = index - length;
+            let first = first - usize::from(is_determiner(self.at(first - 1)));
+            let comma = first > 0 && self.at(first - 1) == ","
+                || first > 1 && self.at(first - 1) == "and" && self.at(first - 2) == ",";
+            if comma {
+                self.say(index, index, &["should", "be"]);
+                index += 2;
+            }
+            index += 1;
+        }
+    }
+}
