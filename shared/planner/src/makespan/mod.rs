@@ -295,7 +295,7 @@ impl<'a> Scheduler<'a> {
         once.sort_unstable();
         once.dedup();
         // Which of two equal operators is idle cannot be told from what is kept.
-        let kept = if once.len() == plan.len() { eliminate(self.task, plan) } else { plan };
+        let kept = if once.len() == plan.len() { self.without_idle(plan) } else { plan };
         let mut kept = kept.into_iter().peekable();
         let mut steps: Vec<Vec<OperatorId>> = steps
             .into_iter()
@@ -305,5 +305,17 @@ impl<'a> Scheduler<'a> {
             steps.pop();
         }
         Answer::Schedule(Schedule { steps })
+    }
+
+    /// Leaves out what the plan does not need, the last first: of two actions that do the same, the formula may count
+    /// on the earlier one, and whoever relies on the later one has to wait.
+    fn without_idle(&self, mut plan: Vec<OperatorId>) -> Vec<OperatorId> {
+        for at in (0..plan.len()).rev() {
+            let operator = plan.remove(at);
+            if !self.task.leads_to(&self.task.init, &plan, &self.task.goal) {
+                plan.insert(at, operator);
+            }
+        }
+        eliminate(self.task, plan)
     }
 }
