@@ -78,8 +78,9 @@ def timed(command):
     null = os.open(os.devnull, os.O_RDWR)
     silence = [(os.POSIX_SPAWN_DUP2, null, descriptor) for descriptor in range(3)]
     start = time.perf_counter()
-    pid = os.posix_spawn(command[0], command, os.environ, file_actions=silence)
-    signal.signal(signal.SIGALRM, lambda *_: os.kill(pid, signal.SIGKILL))
+    pid = os.posix_spawn(command[0], command, os.environ, file_actions=silence, setpgroup=0)
+    # A peer is a script that starts others: they end with it.
+    signal.signal(signal.SIGALRM, lambda *_: os.killpg(pid, signal.SIGKILL))
     signal.alarm(PATIENCE)
     _, status, usage = os.wait4(pid, 0)
     wall = time.perf_counter() - start
