@@ -269,12 +269,12 @@ impl Author for Reader {
 }
 
 /// What may be spent on a shorter plan. Without a wish of the person's no clock is asked, so that the same input
-/// gives the same plan on every machine. A household's formulas are small, and most are decided within this; it is a
-/// second or two where they are not.
+/// gives the same plan on every machine. A household's formulas are small, and most are decided within this; it is two
+/// or three seconds where they are not.
 fn makespan_limits(spec: &RunSpec, household: bool) -> MakespanLimits {
     match spec.makespan_ms {
         None => MakespanLimits {
-            conflicts: if household { 24_000 } else { 1_000 },
+            conflicts: if household { 48_000 } else { 1_000 },
             size: 1_000_000,
             ..MakespanLimits::default()
         },
