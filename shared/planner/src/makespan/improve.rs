@@ -29,6 +29,15 @@ const OPERATORS_A_UNIT_OF_BIDS: u64 = 12;
 /// Operators that a look for a bid counts for at least: the schedule is worked out anew for each.
 const A_BID_AT_LEAST: usize = 1_000;
 
+/// How far the proof is that no schedule is shorter.
+struct Proof<'f> {
+    bound: u32,
+    /// The formula for the bound, if it was asked before: the solver goes on where it stopped.
+    asked: Option<Asked<'f>>,
+    /// There cannot be a formula.
+    too_large: bool,
+}
+
 impl Scheduler<'_> {
     /// Shortens the schedule of the linear plan `plan` and raises the proved bound `from`, in turns, until they
     /// meet or the limits are reached (those of work, size and time). The windows are for tasks without conditional effects, derived facts and
@@ -44,20 +53,18 @@ impl Scheduler<'_> {
         if !self.is_plain() || !self.task.leads_to(&self.task.init, plan, &self.task.goal) {
             return self.shortest(from, Some(makespan), limits, cancel);
         }
-        let mut bound = from.max(self.depth());
-        let mut windows = Windows::new(self, plan.to_vec(), bound);
+        let mut proof = Proof { bound: from.max(self.depth()), asked: None, too_large: false };
+        let mut windows = Windows::new(self, plan.to_vec(), proof.bound);
         let before = windows.order.makespan;
         let mut all = Fuel::new(&MakespanLimits { conflicts: u64::MAX, ..limits.clone() }, cancel);
-        let (mut asked, mut too_large) = (None, false);
         let first = FIRST_RAISE.min(all.work / 5 * 4);
-        let question = (&mut asked, &mut too_large);
-        let mut best = all.slice(first, |fuel| self.raise(&mut bound, before, question, fuel));
+        let mut best = all.slice(first, |fuel| self.raise(&mut proof, before, fuel));
         if best.is_some() {
-            return Makespan { lower_bound: Some(bound), schedule: best };
+            return Makespan { lower_bound: Some(proof.bound), schedule: best };
         }
-        windows.bound = bound;
+        windows.bound = proof.bound;
         let mut auction = None;
-        if before > bound {
+        if before > proof.bound {
             self.rival(self.spread(limits, cancel), &mut windows);
             auction = Auction::new(self.task, &self.model.agent_of, plan, limits.time, cancel);
         }
@@ -65,23 +72,22 @@ impl Scheduler<'_> {
             self.auction(auction, FIRST_AUCTION, &mut windows, &mut all);
         }
         let mut round = ROUND;
-        while bound < windows.order.makespan && !all.is_empty() {
+        while proof.bound < windows.order.makespan && !all.is_empty() {
             if let Some(auction) = &mut auction {
                 self.auction(auction, round / 2, &mut windows, &mut all);
             }
-            let question = (&mut asked, &mut too_large);
-            best = all.slice(round, |fuel| self.raise(&mut bound, windows.order.makespan, question, fuel));
+            best = all.slice(round, |fuel| self.raise(&mut proof, windows.order.makespan, fuel));
             if best.is_some() {
                 break;
             }
-            windows.bound = bound;
+            windows.bound = proof.bound;
             all.slice(round, |fuel| windows.shorten(fuel));
             round = round.saturating_mul(2);
         }
         if best.is_none() && windows.order.makespan < before {
             best = Some(Schedule { steps: windows.order.steps() });
         }
-        Makespan { lower_bound: Some(bound), schedule: best }
+        Makespan { lower_bound: Some(proof.bound), schedule: best }
     }
 
     /// Goes on from another plan, if its schedule is shorter.
@@ -108,38 +114,31 @@ impl Scheduler<'_> {
         fuel.work = fuel.work.saturating_sub(spent * operators / OPERATORS_A_UNIT_OF_BIDS);
     }
 
-    /// Raises the bound while that takes no more than the fuel; or a shortest schedule. `asked` is the formula for the
-    /// bound, if it was asked before: the solver goes on where it stopped. `too_large` says that there cannot be one.
-    fn raise<'f>(
-        &self,
-        bound: &mut u32,
-        below: u32,
-        (asked, too_large): (&mut Option<Asked<'f>>, &mut bool),
-        fuel: &mut Fuel<'f>,
-    ) -> Option<Schedule> {
-        while *bound < below && !*too_large && !fuel.is_empty() {
-            if asked.is_none() {
-                *asked = self.formula(&self.reach, &self.model.goal, &self.relevant, *bound, fuel);
+    /// Raises the bound below `below` while that takes no more than the fuel; or a shortest schedule.
+    fn raise<'f>(&self, proof: &mut Proof<'f>, below: u32, fuel: &mut Fuel<'f>) -> Option<Schedule> {
+        while proof.bound < below && !proof.too_large && !fuel.is_empty() {
+            if proof.asked.is_none() {
+                proof.asked = self.formula(&self.reach, &self.model.goal, &self.relevant, proof.bound, fuel);
             }
-            let Some(question) = asked else {
+            let Some(question) = &mut proof.asked else {
                 // Too large now is too large later.
-                *too_large = true;
+                proof.too_large = true;
                 return None;
             };
             match question.ask(fuel) {
-                (Found::Contradiction, _) => *bound += 1,
+                (Found::Contradiction, _) => proof.bound += 1,
                 // A question goes on as long as there is fuel for more than a few conflicts.
                 (Found::Stopped, _) if fuel.is_for_a_few_conflicts() => return None,
                 (Found::Stopped, _) => continue,
                 (Found::Model, steps) => {
-                    *asked = None;
+                    proof.asked = None;
                     return match self.checked(steps) {
                         Answer::Schedule(schedule) => Some(schedule),
                         Answer::None | Answer::Unknown => None,
                     };
                 }
             }
-            *asked = None;
+            proof.asked = None;
         }
         None
     }
