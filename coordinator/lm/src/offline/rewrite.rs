@@ -1,8 +1,9 @@
 //! Plainer words for the same thing: subordinate clauses made main ones, asides left out, before the grammar reads.
 
 use super::clause::is_going;
+use super::inflect::VerbForm;
 use super::lexicon::{LONGEST, Lexicon};
-use super::syntax::is_determiner;
+use super::syntax::{is_determiner, preposition};
 use super::text::Token;
 
 mod arrangement;
@@ -91,6 +92,39 @@ impl Rewriting<'_> {
 
     fn starts(&self, index: usize, words: &[&str]) -> bool {
         words.iter().enumerate().all(|(offset, word)| self.at(index + offset) == *word)
+    }
+
+    /// How many words there are of the one of these sayings that stands here.
+    fn one_of(&self, index: usize, sayings: &[&[&str]]) -> Option<usize> {
+        sayings.iter().find(|said| self.starts(index, said)).map(|said| said.len())
+    }
+
+    /// Whether a preposition of a place stands here: "of" is none.
+    fn is_place(&self, at: usize) -> bool {
+        preposition(&[self.at(at)]).is_some_and(|_| self.at(at) != "of")
+    }
+
+    fn is_verb(&self, at: usize, wanted: VerbForm) -> bool {
+        self.lexicon.verbs(self.at(at)).iter().any(|(form, _, _)| *form == wanted)
+    }
+
+    fn is_base_verb(&self, at: usize) -> bool {
+        self.is_verb(at, VerbForm::Base)
+    }
+
+    /// Whether what stands here gives an order and names nothing.
+    fn is_order(&self, at: usize) -> bool {
+        self.is_base_verb(at) && self.lexicon.noun(&[self.at(at)]).is_none()
+    }
+
+    /// Whether what may have been done stands here: "washed", and those that look like an order.
+    fn is_participle(&self, at: usize) -> bool {
+        self.is_verb(at, VerbForm::Past) || ["put", "cut", "set"].contains(&self.at(at))
+    }
+
+    /// The words of a range, as they are now.
+    fn words(&self, range: std::ops::Range<usize>) -> Vec<String> {
+        range.map(|at| self.at(at).to_owned()).collect()
     }
 
     fn is_mark(&self, index: usize) -> bool {
@@ -207,10 +241,7 @@ impl Rewriting<'_> {
                 self.say(index, index + 1, &["with"]);
                 continue;
             }
-            let placed = (index + 1..end).any(|at| {
-                self.at(at) == "to"
-                    || super::syntax::preposition(&[self.at(at)]).is_some() && self.at(at) != "of"
-            });
+            let placed = (index + 1..end).any(|at| self.at(at) == "to" || self.is_place(at));
             let listed = WEAK.contains(&first.as_str()) && placed;
             if colon && weak && index - start <= LONGEST_ASIDE && (told || ordered || listed) {
                 self.name_it(start, index, end);
@@ -237,7 +268,7 @@ impl Rewriting<'_> {
             let same = before == "the" && word == "same" && self.lexicon.noun(&[next]).is_some();
             let out = ["stay", "stays", "left", "kept", "stand"].contains(&before)
                 && word == "out"
-                && super::syntax::preposition(&[next]).is_some_and(|_| next != "of");
+                && self.is_place(index + 1);
             if all || same || out {
                 self.say(index, index + 1, &[]);
             }
@@ -409,7 +440,7 @@ impl Rewriting<'_> {
                     .contains(&self.at(index + 2));
             let closes = self.next_mark(index + 1, &[",", "."]);
             if why && self.at(closes) == "," && closes - index <= LONGEST_ASIDE + 2 {
-                let goes_on = super::syntax::preposition(&[self.at(closes + 1)]).is_some();
+                let goes_on = preposition(&[self.at(closes + 1)]).is_some();
                 self.say(index, closes + usize::from(goes_on), &[]);
             }
             index += 1;
@@ -441,7 +472,7 @@ impl Rewriting<'_> {
                 };
                 let plain = (index..end.saturating_sub(too)).all(|at| {
                     let word = self.at(at);
-                    !is_going(word) && !SHALL.contains(&word) && super::syntax::preposition(&[word]).is_none()
+                    !is_going(word) && !SHALL.contains(&word) && preposition(&[word]).is_none()
                 });
                 if too > 0 && plain && end - index <= LONGEST_ASIDE {
                     self.say(end - too, end, &[]);

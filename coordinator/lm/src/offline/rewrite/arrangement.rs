@@ -25,7 +25,7 @@ impl Rewriting<'_> {
             let verb = (index + 2..end.min(index + LONGEST_ASIDE)).find(|&at| self.carries_place(at));
             let plain = |verb: usize| (index..verb).all(|at| !self.is_mark(at) && !is_going(self.at(at)));
             if let Some(verb) = verb.filter(|&verb| plain(verb)) {
-                let place: Vec<String> = (index..verb).map(|at| self.at(at).to_owned()).collect();
+                let place = self.words(index..verb);
                 let place: Vec<&str> = place.iter().map(String::as_str).collect();
                 let goes = is_going(self.at(verb)) || self.at(verb) == "should";
                 let wish = if goes { verb + usize::from(self.at(verb) == "should") + 1 } else { verb };
@@ -73,7 +73,7 @@ impl Rewriting<'_> {
                 let first = index - length;
                 let first = first - usize::from(first > 0 && is_determiner(self.at(first - 1)));
                 if first == 0 || self.is_mark(first - 1) || self.at(first - 1) == "and" {
-                    let wish: Vec<String> = (index..index + 2).map(|at| self.at(at).to_owned()).collect();
+                    let wish = self.words(index..index + 2);
                     self.say(index, index + 2, &[]);
                     self.say(first, first, &[&wish[0], &wish[1]]);
                 }
@@ -99,9 +99,7 @@ impl Rewriting<'_> {
                 self.at(index + 2).ends_with("ing") && !self.lexicon.verbs(self.at(index + 2)).is_empty();
             if first && doing && self.at(end) == "," {
                 let things = index + 3;
-                let place = (things..end)
-                    .find(|&at| preposition(&[self.at(at)]).is_some_and(|_| self.at(at) != "of"))
-                    .unwrap_or(end);
+                let place = (things..end).find(|&at| self.is_place(at)).unwrap_or(end);
                 self.say(place, end + 1, &["."]);
                 self.say(index, things, &[]);
             } else if first {
@@ -128,15 +126,15 @@ impl Rewriting<'_> {
             let (first, verb) = (self.at(each + 1).to_owned(), each + 1);
             let gets = ["get", "gets", "have", "has", "need", "needs"].contains(&first.as_str());
             let goes = is_going(&first);
-            let place: Vec<String> = (verb + 1..index - 1).map(|at| self.at(at).to_owned()).collect();
+            let place = self.words(verb + 1..index - 1);
             let end = self.next_mark(index, &[",", ".", "and"]);
-            let home: Vec<String> = (index + 1..end).map(|at| self.at(at).to_owned()).collect();
+            let home = self.words(index + 1..end);
             if !(gets && place.is_empty() || goes && place.len() == 1) || home.is_empty() || each == start {
                 index += 1;
                 continue;
             }
             let joint = place.first().cloned().unwrap_or_else(|| "in".to_owned());
-            let things: Vec<String> = (start..each).map(|at| self.at(at).to_owned()).collect();
+            let things = self.words(start..each);
             let mut plain: Vec<String> = vec!["put".to_owned()];
             let listed = things.split(|word| word == "," || word == "and").filter(|thing| !thing.is_empty());
             for (number, thing) in listed.enumerate() {

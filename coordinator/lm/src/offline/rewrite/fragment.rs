@@ -2,13 +2,9 @@
 
 use super::{LONGEST_ASIDE, Rewriting, SHALL};
 use crate::offline::clause::is_going;
-use crate::offline::syntax::{is_determiner, preposition};
+use crate::offline::syntax::is_determiner;
 
 impl Rewriting<'_> {
-    fn is_place(&self, at: usize) -> bool {
-        preposition(&[self.at(at)]).is_some_and(|_| self.at(at) != "of")
-    }
-
     /// "Bin the egg. Also the apple.": the apple too.
     pub(super) fn additions(&mut self) {
         let mut index = 1;
@@ -79,7 +75,7 @@ impl Rewriting<'_> {
                 && is_determiner(self.at(first))
                 && is_determiner(self.at(index + length))
             {
-                let place: Vec<String> = (first..index).map(|at| self.at(at).to_owned()).collect();
+                let place = self.words(first..index);
                 let joint = self.at(back).to_owned();
                 let mut said: Vec<&str> = vec!["should", "be", &joint];
                 said.extend(place.iter().map(String::as_str));

@@ -56,7 +56,7 @@ impl Rewriting<'_> {
 
     /// Whether something that was done stands at a place, and what it was done to.
     fn is_done(&self, index: usize) -> bool {
-        let past = self.lexicon.verbs(self.at(index)).iter().any(|(form, _, _)| *form == VerbForm::Past);
+        let past = self.is_verb(index, VerbForm::Past);
         let same = ["cut", "put", "set", "shut"].contains(&self.at(index));
         (past || same) && !self.is_mark(index + 1)
     }
@@ -141,8 +141,7 @@ impl Rewriting<'_> {
             // "there's" has lost its "is" already.
             let thing = index + 1 + being;
             let end = self.next_mark(thing, &[",", "."]);
-            let place =
-                (thing..end).find(|&at| preposition(&[self.at(at)]).is_some_and(|_| self.at(at) != "of"));
+            let place = (thing..end).find(|&at| self.is_place(at));
             if let Some(place) = place.filter(|&place| place > thing && (being > 0 || that)) {
                 let shall: &[&str] = if that { &["is"] } else { &["should", "be"] };
                 self.say(place, place, shall);
@@ -192,7 +191,7 @@ impl Rewriting<'_> {
                 self.say(index, index + 2, &[]);
             } else if index > 0
                 && LYING.contains(&self.at(index))
-                && preposition(&[self.at(index + 1)]).is_some_and(|_| self.at(index + 1) != "of")
+                && self.is_place(index + 1)
                 && self.noun_before(index).is_some()
             {
                 // "a fork placed in the sink": a fork in it.
@@ -341,8 +340,7 @@ impl Rewriting<'_> {
                 .count();
             let done = index + 2 + that + more;
             let particle = usize::from(["up", "out"].contains(&self.at(done + 1)));
-            let past = self.lexicon.verbs(self.at(done)).iter().any(|(form, _, _)| *form == VerbForm::Past)
-                || ["cut", "put"].contains(&self.at(done));
+            let past = self.is_verb(done, VerbForm::Past) || ["cut", "put"].contains(&self.at(done));
             let closes = done + 1 + particle;
             let behind = self.at(closes);
             let ends = self.is_mark(closes)
@@ -388,11 +386,7 @@ impl Rewriting<'_> {
                 let state = is + 1 + usize::from(self.at(is + 1) == "not");
                 let next = self.at(state + 2);
                 let ordered = self.lexicon.adjective(&[self.at(state)]).is_some()
-                    && self
-                        .lexicon
-                        .verbs(self.at(state + 1))
-                        .iter()
-                        .any(|(form, _, _)| *form == VerbForm::Base)
+                    && self.is_base_verb(state + 1)
                     && (is_determiner(next) || ["it", "them"].contains(&next));
                 if ordered {
                     self.say(state + 1, state + 1, &[","]);
@@ -402,10 +396,10 @@ impl Rewriting<'_> {
             let otherwise = self.at(end) == "," && ["otherwise", "else"].contains(&self.at(end + 1));
             if self.at(index) == "if" && index > 0 && !self.is_mark(index - 1) && otherwise {
                 let start = (0..index).rev().find(|&at| self.is_mark(at)).map_or(0, |at| at + 1);
-                let condition: Vec<String> = (index..end).map(|at| self.at(at).to_owned()).collect();
+                let condition = self.words(index..end);
                 let mut condition: Vec<&str> = condition.iter().map(String::as_str).collect();
                 condition.push(",");
-                let thing: Vec<String> = (start + 1..index).map(|at| self.at(at).to_owned()).collect();
+                let thing = self.words(start + 1..index);
                 let named = thing.first().is_some_and(|word| is_determiner(word));
                 if named && condition.get(1) == Some(&"it") {
                     let is = usize::from(condition.get(2) != Some(&"is"));

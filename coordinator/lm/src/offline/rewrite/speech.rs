@@ -1,6 +1,6 @@
 //! What is corrected, left open or added in speaking: "I mean …", "I don't care which", "and nothing else".
 
-use super::super::inflect::{self, VerbForm};
+use super::super::inflect;
 use super::{LONGEST_ASIDE, Rewriting, SHALL};
 use crate::offline::syntax::{is_determiner, preposition};
 
@@ -53,7 +53,7 @@ impl Rewriting<'_> {
     pub(super) fn empty_words(&mut self) {
         let mut index = 0;
         while index < self.tokens.len() {
-            let length = EMPTY.iter().find(|said| self.starts(index, said)).map(|said| said.len());
+            let length = self.one_of(index, &EMPTY);
             if let Some(length) = length {
                 let comma = usize::from(
                     index > 0 && self.at(index - 1) == "," && [",", "."].contains(&self.at(index + length)),
@@ -122,7 +122,7 @@ impl Rewriting<'_> {
     pub(super) fn corrections(&mut self) {
         let mut index = 1;
         while index < self.tokens.len() {
-            let length = CORRECTIONS.iter().find(|said| self.starts(index, said)).map(|said| said.len());
+            let length = self.one_of(index, &CORRECTIONS);
             let (Some(length), true) = (length, is_determiner(self.at(index + length.unwrap_or(0)))) else {
                 index += 1;
                 continue;
@@ -204,9 +204,7 @@ impl Rewriting<'_> {
                     index + 1 + particle
                 };
                 let joins = (from..).take_while(|&at| [",", "and", "then"].contains(&self.at(at))).count();
-                let next = self.at(from + joins);
-                let past = self.lexicon.verbs(next).iter().any(|(form, _, _)| *form == VerbForm::Past);
-                if from > index && joins > 0 && (past || ["put", "cut", "set"].contains(&next)) {
+                if from > index && joins > 0 && self.is_participle(from + joins) {
                     self.say(index, from + joins, &[]);
                 }
             }
@@ -222,11 +220,7 @@ impl Rewriting<'_> {
         }
         for index in 0..self.tokens.len() {
             let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
-            let base = |this: &Self, at: usize| {
-                this.lexicon.verbs(this.at(at)).iter().any(|(form, _, _)| *form == VerbForm::Base)
-                    && this.lexicon.noun(&[this.at(at)]).is_none()
-            };
-            if opens && self.at(index) == "either" && base(self, index + 1) {
+            if opens && self.at(index) == "either" && self.is_order(index + 1) {
                 self.say(index, index + 1, &[]);
             }
             if opens && ["fold", "iron"].contains(&self.at(index)) && is_determiner(self.at(index + 1)) {
@@ -254,7 +248,7 @@ impl Rewriting<'_> {
         ];
         let mut index = 1;
         while index < self.tokens.len() {
-            let near = NEAR.iter().find(|said| self.starts(index + 1, said)).map_or(0, |said| said.len());
+            let near = self.one_of(index + 1, &NEAR).unwrap_or(0);
             let end = self.next_mark(index + 1, &[",", "."]);
             if self.at(index) == ","
                 && near > 0
@@ -290,11 +284,7 @@ impl Rewriting<'_> {
             let so = usize::from(self.at(index) == ",");
             if self.at(index + so) == "so" && index > start {
                 let end = self.next_mark(index + so + 1, &["."]);
-                let orders = {
-                    let next = self.at(index + so + 1);
-                    self.lexicon.verbs(next).iter().any(|(form, _, _)| *form == VerbForm::Base)
-                        && is_determiner(self.at(index + so + 2))
-                };
+                let orders = self.is_base_verb(index + so + 1) && is_determiner(self.at(index + so + 2));
                 let tells = (start..index)
                     .any(|at| ["is", "are", "was", "were", "break", "breaks"].contains(&self.at(at)))
                     && !(start..index).any(|at| {
@@ -303,9 +293,7 @@ impl Rewriting<'_> {
                     && index - start <= LONGEST_ASIDE + 2;
                 let back =
                     (index..end).any(|at| ["it", "them", "they", "there", "both"].contains(&self.at(at)));
-                let ordered =
-                    self.lexicon.verbs(self.at(start)).iter().any(|(form, _, _)| *form == VerbForm::Base)
-                        && self.lexicon.noun(&[self.at(start)]).is_none();
+                let ordered = self.is_order(start);
                 if orders && tells && !back && !ordered {
                     self.say(start, index + so + 1, &[]);
                     index = start;

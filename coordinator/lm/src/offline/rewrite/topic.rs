@@ -41,8 +41,8 @@ impl Rewriting<'_> {
     pub(super) fn topics(&mut self) {
         let mut index = 0;
         while index < self.tokens.len() {
-            let found = FOUND.iter().find(|said| self.starts(index, said)).map(|said| said.len());
-            let needless = NEEDLESS.iter().find(|said| self.starts(index, said)).map(|said| said.len() + 1);
+            let found = self.one_of(index, &FOUND);
+            let needless = self.one_of(index, &NEEDLESS).map(|length| length + 1);
             let unwanted = (self.starts(index, &["i", "dont", "want"])
                 || self.starts(index, &["we", "dont", "want"]))
                 && (index + 3..self.tokens.len())
@@ -53,9 +53,7 @@ impl Rewriting<'_> {
             {
                 let end = self.next_mark(index, &[",", "."]);
                 let things = index + length;
-                let place = (things..end)
-                    .find(|&at| preposition(&[self.at(at)]).is_some_and(|_| self.at(at) != "of"))
-                    .unwrap_or(end);
+                let place = (things..end).find(|&at| self.is_place(at)).unwrap_or(end);
                 self.say(place, end + 1, &["."]);
                 self.say(index, things, &[]);
                 let joined = index > 0 && ["and", "but"].contains(&self.at(index - 1));
@@ -98,7 +96,7 @@ impl Rewriting<'_> {
                 let closes = (opens + 1..self.tokens.len())
                     .find(|&at| self.at(at) == "." || typed != ":" && self.is_closing(at, &typed))
                     .unwrap_or(self.tokens.len());
-                let list: Vec<String> = (opens + 1..closes).map(|at| self.at(at).to_owned()).collect();
+                let list = self.words(opens + 1..closes);
                 let list: Vec<&str> = list.iter().map(String::as_str).collect();
                 let after = usize::from(self.tokens.get(closes).is_some_and(|token| token.text == ","));
                 self.say(opens, closes + after, &[]);
@@ -154,7 +152,7 @@ impl Rewriting<'_> {
         let stands = |this: &Self, at: usize, word: &str| {
             this.starts(at, &["the", word]) && {
                 let next = this.at(at + 2);
-                is_going(next) || SHALL.contains(&next) || preposition(&[next]).is_some_and(|_| next != "of")
+                is_going(next) || SHALL.contains(&next) || this.is_place(at + 2)
             }
         };
         let first = (0..self.tokens.len()).find(|&at| stands(self, at, "first"));
@@ -219,11 +217,6 @@ impl Rewriting<'_> {
             }
             index += 1;
         }
-    }
-
-    fn is_base_verb(&self, at: usize) -> bool {
-        use crate::offline::inflect::VerbForm;
-        self.lexicon.verbs(self.at(at)).iter().any(|(form, _, _)| *form == VerbForm::Base)
     }
 
     /// "stays where it is", "stay put": stays.

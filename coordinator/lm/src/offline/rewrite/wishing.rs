@@ -1,6 +1,5 @@
 //! Wishes said as questions or as needs, and words that say nothing of the goal: said as what shall be.
 
-use super::super::inflect::VerbForm;
 use super::{LONGEST_ASIDE, Rewriting};
 use crate::offline::syntax::{is_determiner, preposition};
 
@@ -54,20 +53,18 @@ impl Rewriting<'_> {
     pub(super) fn needs(&mut self) {
         let mut index = 0;
         while index < self.tokens.len() {
-            let longing = LONGINGS.iter().find(|said| self.starts(index, said)).map(|said| said.len());
-            let placed =
-                |this: &Self, at: usize| preposition(&[this.at(at)]).is_some_and(|_| this.at(at) != "of");
+            let longing = self.one_of(index, &LONGINGS);
             if let Some(length) = longing {
                 self.say(index, index + length, &["i", "want"]);
             } else if ["is", "are"].contains(&self.at(index))
                 && ["needed", "wanted", "required"].contains(&self.at(index + 1))
-                && placed(self, index + 2)
+                && self.is_place(index + 2)
                 && self.at(index + 2) != "for"
             {
                 self.say(index, index + 2, &["should", "be"]);
             } else if ["whatever", "what"].contains(&self.at(index))
                 && ["is", "stands", "lies", "sits"].contains(&self.at(index + 1))
-                && placed(self, index + 2)
+                && self.is_place(index + 2)
             {
                 self.say(index, index + 2, &["everything"]);
             } else if self.at(index) == "exactly" && self.at(index + 1) == "the" {
@@ -75,9 +72,7 @@ impl Rewriting<'_> {
             } else if self.at(index) == "dried" && index > 0 && ["be", ","].contains(&self.at(index - 1)) {
                 // What is dry is no state: "must be dried and put away".
                 let joins = (index + 1..).take_while(|&at| [",", "and"].contains(&self.at(at))).count();
-                let next = self.at(index + 1 + joins);
-                let past = self.lexicon.verbs(next).iter().any(|(form, _, _)| *form == VerbForm::Past);
-                if joins > 0 && (past || ["put", "cut", "set"].contains(&next)) {
+                if joins > 0 && self.is_participle(index + 1 + joins) {
                     self.say(index, index + 1 + joins, &[]);
                 }
             }
