@@ -73,8 +73,9 @@ pub(super) fn formula(
             one_of: BTreeMap::new(),
             threatening: BTreeMap::new(),
             relying: BTreeMap::new(),
+            pieces: BTreeMap::new(),
         };
-        builder.one_action_each();
+        builder.one_action_each(&layers[step + 1]);
         builder.requirements();
         builder.frame(&layers[step + 1], &variables[step + 1]);
         for (set, last) in &mut last_done {
@@ -133,10 +134,10 @@ fn exclusive_values(clauses: &mut Clauses, model: &Model, layer: &Layer, own: &V
 }
 
 /// One step, from a layer to the next.
-struct Step<'a> {
-    clauses: &'a mut Clauses,
-    model: &'a Model,
-    layer: &'a Layer,
+pub(super) struct Step<'a> {
+    pub clauses: &'a mut Clauses,
+    pub model: &'a Model,
+    pub layer: &'a Layer,
     own: &'a Variables,
     /// Whose operators of this step might undo a literal.
     threateners: BTreeMap<Lit, Rc<[u32]>>,
@@ -147,23 +148,17 @@ struct Step<'a> {
     threatening: BTreeMap<(Lit, u32), Bool>,
     /// For a literal before the step and an agent: the agent's action relies on it.
     relying: BTreeMap<(Lit, u32), Bool>,
+    /// For several operators of an agent: it does one of them.
+    pub pieces: BTreeMap<Vec<u32>, Bool>,
 }
 
 impl Step<'_> {
-    fn operator(&self, operator: u32) -> Option<Bool> {
+    pub fn operator(&self, operator: u32) -> Option<Bool> {
         self.layer.operators.binary_search(&operator).ok().map(|at| self.own.operators[at])
     }
 
     fn event(&self, event: u32) -> Option<Bool> {
         self.layer.events.binary_search(&event).ok().map(|at| self.own.events[at])
-    }
-
-    fn one_action_each(&mut self) {
-        let mut of_agent = vec![Vec::new(); self.model.agents];
-        for (&operator, &variable) in self.layer.operators.iter().zip(&self.own.operators) {
-            of_agent[self.model.agent_of[operator as usize] as usize].push(variable);
-        }
-        of_agent.iter().for_each(|actions| self.clauses.at_most_one(actions));
     }
 
     fn requirements(&mut self) {
@@ -190,7 +185,7 @@ impl Step<'_> {
 
     /// That the agent's action relies on the literal, which nobody else may then threaten in this step.
     /// `None` if the layer does not have the literal.
-    fn relies(&mut self, lit: Lit, agent: u32) -> Option<Bool> {
+    pub fn relies(&mut self, lit: Lit, agent: u32) -> Option<Bool> {
         let at = self.layer.lits.binary_search(&lit).ok()?;
         let holds = self.own.lits[at];
         if let Some(&known) = self.relying.get(&(lit, agent)) {
@@ -255,11 +250,13 @@ impl Step<'_> {
             }
             let mut support = vec![!variable];
             support.extend(self.layer.lits.binary_search(&lit).ok().map(|at| self.own.lits[at]));
+            for operators in self.makers_by_agent(lit).into_values() {
+                support.extend(self.one_of_these(operators));
+            }
             for maker in &self.model.makers[lit.index()] {
-                support.extend(match *maker {
-                    Maker::Operator(operator) => self.operator(operator),
-                    Maker::Event(event) => self.event(event),
-                });
+                if let Maker::Event(event) = *maker {
+                    support.extend(self.event(event));
+                }
             }
             self.clauses.clause(support);
             self.keep(lit, variable);

@@ -14,6 +14,7 @@ mod milestones;
 mod model;
 mod order;
 mod pairs;
+mod pieces;
 mod relevance;
 mod sat;
 mod stand_in;
