@@ -25,20 +25,6 @@ const MEMORY: usize = 3 << 30;
 /// Bounds of each search for a reason: without one, "infeasible" is still true.
 const REASON_EXPANSIONS: u64 = 20_000;
 
-/// What may be spent on a shorter schedule beyond the limits, at least, for each operator of the task, and at most:
-/// some tenths of a second, most of it for the proof, and some seconds. A task that is solved to the end takes what that takes.
-const LEAST_WORK: u64 = 3_000_000;
-const WORK_PER_OPERATOR: u64 = 1_000;
-const MOST_WORK: u64 = 25_000_000;
-
-/// Long schedules of large tasks get more than that: the square of (operators times squared steps, divided by this). What
-/// it takes to look at a part of a schedule grows with the operators, and how much there is to gain with the steps; so
-/// half of the tasks of a set take tenths of a second, and those that are worth it some seconds.
-const LENGTH_UNIT: u64 = 500;
-
-/// A formula may have a literal for so much work: it takes a unit to load one, and it is to be solved, too.
-const WORK_PER_LITERAL: u64 = 4;
-
 /// What there is to plan.
 #[derive(Clone, Debug)]
 pub struct JointInput {
@@ -76,21 +62,17 @@ pub fn plan_jointly(input: &JointInput, cancel: &AtomicBool) -> Result<JointPlan
     let plan = search(input, &joint.task, countdown, cancel)?;
     let interpreter = team.interpreter().map_err(|e| gave_up(&e))?;
     let order = explain(input, &interpreter, &plan).map_err(|why| gave_up(&why))?;
-    let steps = order.makespan() as u64;
-    let limits = within(&input.makespan, joint.task.operators.len() as u64, steps, countdown);
+    let steps = order.makespan() as u32;
+    let limits = within(&input.makespan, joint.task.operators.len(), steps, countdown);
     let (order, bound) = improve(input, &interpreter, &joint, &plan, order, &limits, cancel);
     Ok(handed_out(input, &interpreter, &order, f64::from(bound)))
 }
 
-/// The limits for a task of so many operators and a plan of so many steps, and no longer than half of what is left: the
+/// What a task of so many operators and a plan of so many steps is worth, and no longer than half of what is left: the
 /// plan is still to be carried out.
-fn within(limits: &MakespanLimits, operators: u64, steps: u64, countdown: Countdown) -> MakespanLimits {
+fn within(limits: &MakespanLimits, operators: usize, steps: u32, countdown: Countdown) -> MakespanLimits {
     let time = [limits.time, countdown.left().map(|left| left / 2)].into_iter().flatten().min();
-    let length = operators.saturating_mul(steps.saturating_mul(steps)) / LENGTH_UNIT;
-    let more = LEAST_WORK.max(operators.saturating_mul(WORK_PER_OPERATOR)).max(length.saturating_mul(length));
-    let more = more.min(MOST_WORK);
-    let size = limits.size.max(more / WORK_PER_LITERAL);
-    MakespanLimits { time, work: limits.work.saturating_add(more), size, ..limits.clone() }
+    MakespanLimits { time, ..limits.worth(operators, steps) }
 }
 
 /// The shortest order found and a proved bound, within the limits.

@@ -105,13 +105,12 @@ fn one(domain: &Path, problem: &Path, work: u64) -> Result<Row, String> {
     };
     let found = processor_time() - start;
     let first = plan.as_ref().and_then(|plan| scheduler.makespan_of(plan));
-    // As the coordinator does it.
-    let operators = task.operators.len() as u64;
-    let length = operators * u64::from(first.unwrap_or(0)).pow(2) / 500;
-    let more = (operators * 1_000).max(length.saturating_mul(length)).clamp(3_000_000, 25_000_000);
-    let size = if work > 0 { 60_000_000 } else { 1_000_000.max(more / 4) };
-    let work = if work > 0 { work } else { 500_000 + more };
-    let limits = MakespanLimits { conflicts: u64::MAX, size, work, time: None };
+    let limits = match work {
+        // As the coordinator does it.
+        0 => MakespanLimits { conflicts: u64::MAX, size: 1_000_000, ..MakespanLimits::default() }
+            .worth(task.operators.len(), first.unwrap_or(0)),
+        _ => MakespanLimits { conflicts: u64::MAX, size: 60_000_000, work, ..MakespanLimits::default() },
+    };
     let never = AtomicBool::new(false);
     let proof = match (&plan, first) {
         (Some(plan), Some(first)) => scheduler.improve(plan, first, floor, &limits, &never),

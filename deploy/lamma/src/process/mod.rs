@@ -282,6 +282,7 @@ fn makespan_limits(spec: &RunSpec, household: bool) -> MakespanLimits {
             conflicts: u64::MAX,
             size: 50_000_000,
             work: u64::MAX,
+            wide_work: u64::MAX,
             time: Some(Duration::from_millis(ms)),
         },
     }

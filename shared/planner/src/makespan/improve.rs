@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use super::auction::Auction;
+use super::limits::WORK_PER_LITERAL;
 use super::sat::{Found, Fuel};
 use super::windows::Windows;
 use super::{Answer, Asked, Makespan, MakespanLimits, Schedule, Scheduler};
@@ -29,6 +30,9 @@ const OPERATORS_A_UNIT_OF_BIDS: u64 = 12;
 /// Operators that a look for a bid counts for at least: the schedule is worked out anew for each.
 const A_BID_AT_LEAST: usize = 1_000;
 
+/// A schedule is much longer than the bound from this ratio on: 7 to 5.
+const WIDE: (u64, u64) = (7, 5);
+
 /// How far the proof is that no schedule is shorter.
 struct Proof<'f> {
     bound: u32,
@@ -36,6 +40,11 @@ struct Proof<'f> {
     asked: Option<Asked<'f>>,
     /// There cannot be a formula.
     too_large: bool,
+}
+
+/// Whether a schedule is so much longer than the bound that either is worth more work.
+fn is_wide(proof: &Proof<'_>, makespan: u32) -> bool {
+    u64::from(makespan) * WIDE.1 >= u64::from(proof.bound) * WIDE.0
 }
 
 impl Scheduler<'_> {
@@ -72,7 +81,16 @@ impl Scheduler<'_> {
             self.auction(auction, FIRST_AUCTION, &mut windows, &mut all);
         }
         let mut round = ROUND;
-        while proof.bound < windows.order.makespan && !all.is_empty() {
+        let mut more = limits.wide_work.saturating_sub(limits.work);
+        while proof.bound < windows.order.makespan {
+            if all.work == 0 && is_wide(&proof, windows.order.makespan) {
+                all.size = all.size.max(more / WORK_PER_LITERAL);
+                all.work = std::mem::take(&mut more);
+                proof.too_large = false;
+            }
+            if all.is_empty() {
+                break;
+            }
             if let Some(auction) = &mut auction {
                 self.auction(auction, round / 2, &mut windows, &mut all);
             }

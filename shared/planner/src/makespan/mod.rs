@@ -10,6 +10,7 @@ mod auction;
 mod formula;
 mod improve;
 mod layers;
+mod limits;
 mod milestones;
 mod model;
 mod order;
@@ -23,11 +24,11 @@ mod windows;
 mod work;
 
 use std::sync::atomic::AtomicBool;
-use std::time::Duration;
 
 use crate::search::eliminate;
 use crate::task::{OperatorId, Task};
 use layers::{NEVER, Reach, Waiting};
+pub use limits::MakespanLimits;
 pub use milestones::{Milestone, Need, all_before};
 use model::{Lit, Model};
 use order::Order;
@@ -40,26 +41,6 @@ const LITERALS_PER_OPERATOR: u64 = 8;
 
 /// What may be spent on which facts exclude each other, in words of bits looked at: some hundredths of a second.
 const PAIRS: u64 = 30_000_000;
-
-/// How much may be spent. The first two are the same on every machine.
-#[derive(Clone, Debug)]
-pub struct MakespanLimits {
-    /// Conflicts of the solver, over all formulas.
-    pub conflicts: u64,
-    /// Literals of a formula: about 20 bytes and, to build and load, 50 ns each.
-    pub size: u64,
-    /// Work on making a known plan shorter: literals of formulas, and what the solver looks at. A million takes
-    /// about 0.13 s.
-    pub work: u64,
-    /// Time on the clock.
-    pub time: Option<Duration>,
-}
-
-impl Default for MakespanLimits {
-    fn default() -> Self {
-        MakespanLimits { conflicts: 20_000, size: 4_000_000, work: 500_000, time: None }
-    }
-}
 
 /// Steps of a team; the actions of a step may happen in any order, each agent does at most one of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
