@@ -38,7 +38,9 @@ pub fn run(args: &RunArgs, solve_only: bool) -> Result<u8, Failure> {
 /// The run that the arguments ask for, checked as far as that needs no world.
 pub fn spec_of(args: &RunArgs) -> Result<RunSpec, Failure> {
     let mut spec = spec_from(&args.common, source(args)?);
-    check_lm(&args.common)?;
+    if spec.instruction().is_some() {
+        check_lm(&args.common)?;
+    }
     spec.events = script(&args.common)?;
     Ok(spec)
 }

@@ -227,16 +227,19 @@ pub fn coordinator_parts(
         patience: spec.patience,
     })
     .map_err(Failure::fault)?;
-    let model = language_model(&spec.lm, spec.seed)?;
-    let mut reader = Reader { model, instruction: spec.instruction(), household };
+    // Who has nothing to read does not learn the words either.
+    let reading = match spec.instruction() {
+        Some(instruction) => Some((language_model(&spec.lm, spec.seed)?, instruction)),
+        None => None,
+    };
+    let mut reader = Reader { reading, household };
     let work = move |job: CoordinatorJob, cancel: &AtomicBool| job.run(&mut reader, cancel);
     Ok(Parts { machine, workers: vec![Box::new(work)] })
 }
 
 /// Who asks the language model.
 struct Reader {
-    model: Box<dyn LanguageModel>,
-    instruction: Option<Instruction>,
+    reading: Option<(Box<dyn LanguageModel>, Instruction)>,
     household: Option<Arc<World>>,
 }
 
@@ -245,9 +248,9 @@ const NO_INSTRUCTION: &str = "this run has no instruction";
 
 impl Author for Reader {
     fn understand(&mut self, facts: BTreeSet<GroundAtom>, cancel: &AtomicBool) -> Understood {
-        match (&self.instruction, self.household.as_deref()) {
-            (Some(instruction), Some(World::Household(setup))) => {
-                decompose(self.model.as_mut(), setup, &facts, instruction, cancel)
+        match (&mut self.reading, self.household.as_deref()) {
+            (Some((model, instruction)), Some(World::Household(setup))) => {
+                decompose(model.as_mut(), setup, &facts, instruction, cancel)
             }
             _ => Understood::Failed(NO_INSTRUCTION.into()),
         }
@@ -259,9 +262,9 @@ impl Author for Reader {
         check: &dyn Fn(&Script) -> Vec<String>,
         cancel: &AtomicBool,
     ) -> Result<Script, NotWritten> {
-        match (&self.instruction, self.household.as_deref()) {
-            (Some(instruction), Some(World::Household(setup))) => {
-                write(self.model.as_mut(), setup, input, instruction, check, cancel)
+        match (&mut self.reading, self.household.as_deref()) {
+            (Some((model, instruction)), Some(World::Household(setup))) => {
+                write(model.as_mut(), setup, input, instruction, check, cancel)
             }
             _ => Err(NotWritten::Failed(NO_INSTRUCTION.into())),
         }
