@@ -1,28 +1,29 @@
 //! Scores the embedded default on crowd-written sentences with known goals.
 //!
-//! `score_alfred FOLDER [clean|dev|all] [SENTENCES] [SHOW]` reads `alfred/train_compact.json.gz` and `ai2thor/*`
+//! `score_alfred FOLDER [clean|dev|learn|held|all] [SENTENCES] [SHOW]` reads `alfred/train_compact.json.gz` and `ai2thor/*`
 //! in the folder, takes that many sentences at random (by a hash), and prints the rate of exact goals and the
 //! causes of the rest.
 //!
 //! `clean` is a quarter of the tasks, by two hashes of the task's id, that nobody has read while the grammar and
-//! the lexicon were written: it reports. `dev` is the rest; failures are shown for it alone. `all` is both.
+//! the lexicon were written: it reports. `dev` is the rest; failures are shown for it and for `learn` alone. `all` is
+//! both. `learn` is the half that senses are learned from, `held` the other half, of which `clean` is a half;
+//! `HALVES=id|goal|plan` says what they keep together (`examples/learn_senses.rs`).
 //! `LEXICON=DIR` reads the lexicon's files from a folder, so that it may be tuned without building.
 //! `SEED=TEXT` takes other sentences. `STRICT=1` counts a question as a failure and a state that does not last as missing.
 
 mod facts;
 mod judge;
+mod sentences;
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::process::Command;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use lamma_lm::{LanguageModel, Offline};
-use serde_json::Value;
-
 use facts::Facts;
 use judge::{judge, wanted};
+use lamma_lm::{LanguageModel, Offline};
+use sentences::{read_tasks, sentences};
 
 /// Whatever goes wrong in an example.
 pub type Failure = Box<dyn std::error::Error>;
@@ -32,15 +33,13 @@ const MOST_CONFUSIONS: usize = 25;
 
 fn main() -> Result<(), Failure> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let usage = "usage: score_alfred FOLDER [clean|dev|all] [SENTENCES] [SHOW]";
+    let usage = "usage: score_alfred FOLDER [clean|dev|learn|held|all] [SENTENCES] [SHOW]";
     let folder = Path::new(arguments.first().ok_or(usage)?);
     let part = arguments.get(1).map_or("clean", String::as_str);
     let limit = arguments.get(2).and_then(|n| n.parse().ok()).unwrap_or(usize::MAX);
     let show: usize = arguments.get(3).and_then(|n| n.parse().ok()).unwrap_or(0);
     let facts = Facts::read(folder)?;
-    let unpacked =
-        Command::new("gzip").arg("-dc").arg(folder.join("alfred/train_compact.json.gz")).output()?;
-    let tasks: Value = serde_json::from_slice(&unpacked.stdout)?;
+    let tasks = read_tasks(folder)?;
     let sentences = sentences(&tasks, part, limit);
     let mut parser = match std::env::var_os("LEXICON") {
         Some(folder) => Offline::from_folder(Path::new(&folder))?,
@@ -61,7 +60,7 @@ fn main() -> Result<(), Failure> {
             continue;
         }
         *tally.causes.entry(verdict.cause.clone()).or_default() += 1;
-        if part == "dev" {
+        if part == "dev" || part == "learn" {
             if let Some(confused) = verdict.confused {
                 *tally.confusions.entry(confused).or_default() += 1;
             }
@@ -73,24 +72,6 @@ fn main() -> Result<(), Failure> {
     }
     tally.print(part);
     Ok(())
-}
-
-/// The sentences of a part, in an order that a hash gives.
-fn sentences<'t>(tasks: &'t Value, part: &str, limit: usize) -> Vec<(&'t Value, &'t str)> {
-    let seed = std::env::var("SEED").unwrap_or_default();
-    let mut found: Vec<(u64, &Value, &str)> = Vec::new();
-    for task in tasks["tasks"].as_array().into_iter().flatten() {
-        let id = task["id"].as_str().unwrap_or_default();
-        let clean = !fnv(id).is_multiple_of(2) && !crc32(id).is_multiple_of(2);
-        if part == "all" || clean == (part == "clean") {
-            for sentence in task["sentences"].as_array().into_iter().flatten().filter_map(Value::as_str) {
-                found.push((fnv(&format!("{seed}{id}{sentence}")), task, sentence));
-            }
-        }
-    }
-    found.sort_by_key(|(hash, _, _)| *hash);
-    found.truncate(limit);
-    found.into_iter().map(|(_, task, sentence)| (task, sentence)).collect()
 }
 
 /// What was counted.
@@ -130,20 +111,6 @@ fn by_count(counts: BTreeMap<String, usize>) -> Vec<(String, usize)> {
     let mut counts: Vec<(String, usize)> = counts.into_iter().collect();
     counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     counts
-}
-
-fn fnv(text: &str) -> u64 {
-    text.bytes()
-        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
-}
-
-fn crc32(text: &str) -> u32 {
-    !text.bytes().fold(u32::MAX, |sum, byte| {
-        (0..8).fold(
-            sum ^ u32::from(byte),
-            |sum, _| if sum & 1 == 1 { sum >> 1 ^ 0xedb8_8320 } else { sum >> 1 },
-        )
-    })
 }
 
 fn strict() -> bool {

@@ -46,7 +46,7 @@ impl<'a> Parser<'a> {
             position: 0,
             lexicon,
             scene,
-            nouns: super::phrase::nouns(words, lexicon).into(),
+            nouns: super::sense::ordered(super::phrase::nouns(words, lexicon), words, lexicon, scene).into(),
             passed_over: Vec::new(),
             choices: Vec::new(),
             last_place: None,

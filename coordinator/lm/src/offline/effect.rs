@@ -149,11 +149,18 @@ impl<'d, 'a> Interpreter<'d, 'a> {
 
     /// What a clause names only to say where, with what or from where: "next to the laptop … open it".
     fn named_besides(&mut self, clause: &Clause<'a>) -> Vec<usize> {
+        let tool_again = |place: &&Place| {
+            place.relation == Relation::With
+                && place.phrase.head == (Head::Pronoun { plural: false })
+                && clause.objects.len() > 1
+                && self.discourse.spoken.iter().any(|spoken| !spoken.objects.is_empty())
+        };
         let besides = |place: &&Place| {
-            matches!(place.relation, Relation::Near | Relation::With | Relation::From)
-                && place.phrase.quantity == Quantity::One
-                && place.phrase.liquid().is_none()
-                && matches!(&place.phrase.head, Head::Noun(noun)
+            tool_again(place)
+                || matches!(place.relation, Relation::Near | Relation::With | Relation::From)
+                    && place.phrase.quantity == Quantity::One
+                    && place.phrase.liquid().is_none()
+                    && matches!(&place.phrase.head, Head::Noun(noun)
                     if !noun.class && noun.kinds.iter().any(|kind| self.discourse.scene.has(kind)))
         };
         let phrases: Vec<Phrase> =
@@ -405,7 +412,12 @@ impl<'d, 'a> Interpreter<'d, 'a> {
     fn use_tool(&mut self, clause: &Clause<'a>, next: Option<&Clause<'a>>) -> Spoken {
         let examines = next.is_some_and(|next| next.verbs.iter().any(|verb| verb.act == Act::Examine));
         if !examines {
-            return Spoken::default();
+            // "use the spray and the cloth to clean the mirror, then put them away"
+            let reached =
+                clause.objects.iter().filter(|phrase| self.is_movable(phrase)).cloned().collect::<Vec<_>>();
+            let reached =
+                reached.iter().flat_map(|phrase| self.discourse.mention(phrase, &[], None)).collect();
+            return Spoken { reached, ..Spoken::default() };
         }
         let lamps = self.objects(clause, &clause.places, Some("toggleable"));
         for &lamp in &lamps {

@@ -13,14 +13,16 @@ use lamma_domains::goal::PropertyValue;
 use serde::Deserialize;
 
 use super::inflect::{self, VerbForm};
+use super::sense::Senses;
 use super::situation::{self, Situation};
 use super::spelling::Spelling;
 use super::trigger::{Said, Trigger, TriggerWords};
 use crate::LmError;
 
 /// The files of a lexicon and those that are built in.
-const FILES: [(&str, &str); 5] = [
+const FILES: [(&str, &str); 6] = [
     ("nouns.toml", include_str!("../../../../domains/household/lexicon/nouns.toml")),
+    ("senses.toml", include_str!("../../../../domains/household/lexicon/senses.toml")),
     ("uses.toml", include_str!("../../../../domains/household/lexicon/uses.toml")),
     ("verbs.toml", include_str!("../../../../domains/household/lexicon/verbs.toml")),
     ("words.toml", include_str!("../../../../domains/household/lexicon/words.toml")),
@@ -160,9 +162,13 @@ struct File {
     #[serde(default)]
     under: BTreeMap<String, String>,
     #[serde(default)]
+    stands: BTreeMap<String, Vec<String>>,
+    #[serde(default)]
     inside: BTreeMap<String, BTreeMap<String, Vec<String>>>,
     #[serde(default)]
     likes: BTreeMap<String, Vec<String>>,
+    #[serde(default)]
+    senses: Senses,
 }
 
 /// The lexicon.
@@ -179,8 +185,10 @@ pub struct Lexicon {
     controls: BTreeMap<String, String>,
     homes: BTreeMap<String, Vec<String>>,
     under: BTreeMap<String, String>,
+    stands: BTreeMap<String, Vec<String>>,
     inside: BTreeMap<String, BTreeMap<String, Vec<String>>>,
     likes: BTreeMap<String, Vec<String>>,
+    senses: Senses,
     vocabulary: BTreeSet<String>,
     trigger_words: TriggerWords,
     /// The vocabulary that a strange word may be a slip for, and the verbs of one word, once somebody has asked.
@@ -246,8 +254,10 @@ impl Lexicon {
         self.controls.extend(file.controls);
         self.homes.extend(file.homes);
         self.under.extend(file.under);
+        self.stands.extend(file.stands);
         self.inside.extend(file.inside);
         self.likes.extend(file.likes);
+        self.senses.extend(file.senses);
         for mut situation in file.situation {
             self.vocabulary.extend(situation::vocabulary(&situation.when));
             situation.triggers = situation.when.iter().map(|when| self.trigger_words.trigger(when)).collect();
@@ -404,14 +414,20 @@ impl Lexicon {
         self.likes.get(kind).map(Vec::as_slice).unwrap_or_default()
     }
 
+    /// What speaks for which type of a loose noun.
+    pub fn senses(&self) -> &Senses {
+        &self.senses
+    }
+
     /// What is meant by "under" a thing.
     pub fn under(&self, kind: &str) -> Option<&str> {
         self.under.get(kind).map(String::as_str)
     }
 
-    /// The surfaces something may stand on "beside" a thing, the likelier first.
-    pub fn beside(&self) -> impl Iterator<Item = &str> {
-        self.homes.get("beside").into_iter().flatten().map(String::as_str)
+    /// The surfaces something may stand on "beside" a thing of a type, the likelier first.
+    pub fn beside(&self, kind: Option<&str>) -> impl Iterator<Item = &str> {
+        let own = kind.and_then(|kind| self.stands.get(kind)).into_iter().flatten();
+        own.chain(self.homes.get("beside").into_iter().flatten()).map(String::as_str)
     }
 
     /// The situations.
@@ -443,25 +459,9 @@ impl Lexicon {
     }
 }
 
-/// A phrase's key: its letters and digits alone, in lower case.
-pub fn squash(phrase: &str) -> String {
-    phrase.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
-}
+mod filing;
 
-/// `TennisRacket` -> `tennis racket`, `TVStand` -> `tv stand`.
-pub fn split_camel_case(name: &str) -> String {
-    let letters: Vec<char> = name.chars().collect();
-    let mut phrase = String::new();
-    for (i, &letter) in letters.iter().enumerate() {
-        let after_lower = i > 0 && letters[i - 1].is_lowercase();
-        let before_lower = i > 0 && letters.get(i + 1).is_some_and(|next| next.is_lowercase());
-        if letter.is_uppercase() && (after_lower || before_lower) {
-            phrase.push(' ');
-        }
-        phrase.extend(letter.to_lowercase());
-    }
-    phrase.replace('_', " ")
-}
+pub use filing::{split_camel_case, squash};
 
 #[cfg(test)]
 mod tests {
@@ -485,12 +485,5 @@ mod tests {
         assert_eq!(lexicon.noun(&["thingamajig"]).unwrap().0.kinds, ["Gadget3000"]);
         let error = lexicon.extend("mine", "[tpyes]\n").unwrap_err().to_string();
         assert!(error.contains("mine") && error.contains("tpyes"), "{error}");
-    }
-
-    #[test]
-    fn camel_case_splits_into_words() {
-        assert_eq!(split_camel_case("TennisRacket"), "tennis racket");
-        assert_eq!(split_camel_case("TVStand"), "tv stand");
-        assert_eq!(split_camel_case("CD"), "cd");
     }
 }

@@ -17,6 +17,7 @@ mod mention;
 mod phrase;
 mod rewrite;
 mod scene;
+mod sense;
 mod situation;
 mod snapshot;
 mod spelling;
@@ -35,11 +36,13 @@ use effect::{Change, Fact, Interpreter};
 use emit::{Emitter, Stay};
 pub use gloss::Gloss;
 use lexicon::Lexicon;
+pub use lexicon::squash;
 use literal::{
     goes_on_about_it, is_concrete, is_mere_step, is_weak, only_goes, only_tells, says_state, says_where,
 };
 use mention::{Discourse, Spoken};
 use scene::Scene;
+pub use sense::{Clues, LooseNoun};
 use snapshot::Snapshot;
 use syntax::Clause;
 pub(crate) use text::damerau_levenshtein;
@@ -198,8 +201,18 @@ impl Reading {
     }
 }
 
-/// The best reading of an instruction: word by word, or as a situation where that explains more.
-fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
+/// An instruction in plainer words.
+struct Plain {
+    words: Vec<String>,
+    /// What was taken for a slip of the pen, in words.
+    repairs: Vec<String>,
+    /// Mended words as they were typed, and as they are read.
+    typed: Vec<(String, String)>,
+    /// Where the instruction was cut off for its length.
+    cut: usize,
+}
+
+fn plain(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Plain {
     let cut = instruction
         .char_indices()
         .map(|(at, _)| at)
@@ -216,6 +229,12 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
     let tokens = rewrite::rewritten(tokens, lexicon);
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
     let words = text::without_asides(words, lexicon);
+    Plain { words, repairs, typed, cut }
+}
+
+/// The best reading of an instruction: word by word, or as a situation where that explains more.
+fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
+    let Plain { words, repairs, typed, cut } = plain(instruction, lexicon, scene);
     if text::says_nothing(&words, lexicon, scene) {
         return Reading::nothing(instruction);
     }

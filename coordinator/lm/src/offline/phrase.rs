@@ -1,5 +1,6 @@
 //! Noun phrases: determiners, quantities, adjectives, heads, and what follows a head.
 
+use std::borrow::Cow;
 use std::rc::Rc;
 
 use super::clause::Parser;
@@ -422,22 +423,22 @@ impl Parser<'_> {
 
     /// The longest noun at a position.
     pub(super) fn longest_noun_at(&self, position: usize) -> Option<(Noun, bool, usize)> {
-        let (noun, plural, length) = (*self.nouns.get(position)?)?;
-        Some((noun.clone(), plural, length))
+        let (noun, plural, length) = self.nouns.get(position)?.as_ref()?;
+        Some((noun.clone().into_owned(), *plural, *length))
     }
 }
 
 /// The longest noun at a position, whether it is a plural, and its length in words.
-pub(super) type NounAt<'a> = Option<(&'a Noun, bool, usize)>;
+pub(super) type NounAt<'a> = Option<(Cow<'a, Noun>, bool, usize)>;
 
 /// The longest noun at each position.
 pub(super) fn nouns<'a>(words: &'a [String], lexicon: &'a Lexicon) -> Vec<NounAt<'a>> {
     let at = |position: usize| {
         let rest: Vec<&str> = words[position..].iter().take(LONGEST).map(String::as_str).collect();
         let usable = rest.iter().position(|w| [",", ".", "and"].contains(w)).unwrap_or(rest.len());
-        (1..=usable)
-            .rev()
-            .find_map(|length| lexicon.noun(&rest[..length]).map(|(noun, plural)| (noun, plural, length)))
+        (1..=usable).rev().find_map(|length| {
+            lexicon.noun(&rest[..length]).map(|(noun, plural)| (Cow::Borrowed(noun), plural, length))
+        })
     };
     (0..words.len()).map(at).collect()
 }

@@ -7,8 +7,11 @@ use super::syntax::{is_determiner, preposition};
 use super::text::Token;
 
 mod arrangement;
+mod asides;
 mod fragment;
 mod members;
+mod people;
+mod receivers;
 mod saying;
 mod speech;
 mod topic;
@@ -28,7 +31,15 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
     text.corrections();
+    text.people();
     text.empty_words();
+    text.words_between();
+    text.hasty_parts();
+    text.orders_in_disguise();
+    text.what_is_left();
+    text.where_things_were();
+    text.company();
+    text.misplaced_things();
     text.roundabout_wishes();
     text.small_verbs();
     text.first_and_last();
@@ -241,8 +252,9 @@ impl Rewriting<'_> {
                 self.say(index, index + 1, &["with"]);
                 continue;
             }
-            let placed = (index + 1..end).any(|at| self.at(at) == "to" || self.is_place(at));
-            let listed = WEAK.contains(&first.as_str()) && placed;
+            let places = (index + 1..end).filter(|&at| self.at(at) == "to" || self.is_place(at)).count();
+            // "make the bed nice: the pillow on it, the book beside it"
+            let listed = places > usize::from(!WEAK.contains(&first.as_str()));
             if colon && weak && index - start <= LONGEST_ASIDE && (told || ordered || listed) {
                 self.name_it(start, index, end);
                 self.say(start, index + 1, &[]);
@@ -322,34 +334,6 @@ impl Rewriting<'_> {
                     self.say(index, index + 1, &["except"]);
                 }
             }
-        }
-    }
-
-    /// "neither the stove nor the tap should be on": both should not be; "make it so that …": make sure of it.
-    fn denials(&mut self) {
-        let mut index = 0;
-        while index < self.tokens.len() {
-            let opens = index == 0 || [",", ".", "and", "that"].contains(&self.at(index - 1));
-            if self.starts(index, &["make", "it", "so"]) {
-                let that = usize::from(self.at(index + 3) == "that");
-                self.say(index, index + 3 + that, &["make", "sure"]);
-            }
-            if opens && self.at(index) == "neither" {
-                let end = self.next_mark(index, &["."]);
-                let nor = (index..end).find(|&at| self.at(at) == "nor");
-                let shall = nor.and_then(|nor| (nor..end).find(|&at| SHALL[..13].contains(&self.at(at))));
-                let goes = nor.and_then(|nor| (nor..end).find(|&at| is_going(self.at(at))));
-                if let (None, Some(goes)) = (shall, goes) {
-                    self.say(goes, goes + 1, &["should", "be"]);
-                }
-                let shall = shall.or(goes);
-                if let (Some(nor), Some(shall)) = (nor, shall) {
-                    self.say(shall + 1, shall + 1, &["not"]);
-                    self.say(nor, nor + 1, &["and"]);
-                    self.say(index, index + 1, &[]);
-                }
-            }
-            index += 1;
         }
     }
 

@@ -373,7 +373,8 @@ impl<'a> Interpreter<'_, 'a> {
                 .map(|parent| parent.kind.as_str())
                 .find(|kind| *kind != "Floor" && scene.accepts(kind, &thing))
         });
-        let likely = self.discourse.lexicon.beside().find(|kind| scene.surely_accepts(kind, &thing));
+        let mut surfaces = self.discourse.lexicon.beside(reference.as_deref());
+        let likely = surfaces.find(|kind| scene.surely_accepts(kind, &thing));
         let kinds = self.discourse.entities[first].kinds.clone();
         let chosen = under
             .filter(|place| kinds.iter().any(|kind| scene.accepts(place, kind)))

@@ -77,8 +77,13 @@ impl Discourse<'_> {
         let sliced = states.get("isCooked") == Some(&super::super::yes())
             && self.cooks_in_slices(self.entities[entity].kind());
         let sliced = sliced.then(|| ("isSliced".to_owned(), super::super::yes()));
+        // "one roll empty, one full": no liquid.
+        let fillable = self.scene.affords(self.entities[entity].kind(), "canFillWithLiquid");
         states
             .into_iter()
+            .filter(|(property, _)| {
+                fillable || !["isFilledWithLiquid", "fillLiquid"].contains(&property.as_str())
+            })
             .chain(sliced)
             .map(|(property, value)| {
                 let kind = self.entities[entity].kind();

@@ -196,6 +196,16 @@ impl Discourse<'_> {
         {
             return spoken.places.clone();
         }
+        // "cut the bread and the tomato with the knife and wash it": the tool, where several things were cut.
+        if let Some(spoken) = last.filter(|spoken| !plural && spoken.objects.len() > 1)
+            && let [tool] = spoken.reached.as_slice()
+            && fits(self, &[*tool])
+            && spoken.objects.iter().any(|&e| self.entities[e].text != self.entities[spoken.objects[0]].text)
+            && self.affords(self.entities[*tool].kind(), "pickupable")
+            && !self.affords(self.entities[*tool].kind(), "receptacle")
+        {
+            return vec![*tool];
+        }
         if plural {
             let mut all: Vec<usize> = Vec::new();
             for spoken in self.spoken.iter().rev() {
@@ -217,6 +227,11 @@ impl Discourse<'_> {
             }
             if !all.is_empty() {
                 return all;
+            }
+            // What was only used or stood by.
+            let used = self.spoken.iter().rev().map(|spoken| &spoken.reached).find(|used| used.len() > 1);
+            if let Some(used) = used.filter(|used| fits(self, used)) {
+                return used.clone();
             }
         }
         for spoken in self.spoken.iter().rev() {

@@ -71,7 +71,15 @@ impl Rewriting<'_> {
             let noun = self.noun_before(index).map(|noun| noun.len());
             if let (true, Some(length)) = (person, noun) {
                 let first = index - length;
-                let first = first - usize::from(first > 0 && is_determiner(self.at(first - 1)));
+                let mut first = first - usize::from(first > 0 && is_determiner(self.at(first - 1)));
+                // "the cup and the plate I want …"
+                if first > 1
+                    && self.at(first - 1) == "and"
+                    && let Some(other) = self.noun_before(first - 1)
+                {
+                    first -= 1 + other.len();
+                    first -= usize::from(first > 0 && is_determiner(self.at(first - 1)));
+                }
                 if first == 0 || self.is_mark(first - 1) || self.at(first - 1) == "and" {
                     let wish = self.words(index..index + 2);
                     self.say(index, index + 2, &[]);

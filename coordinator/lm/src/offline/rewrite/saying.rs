@@ -76,8 +76,8 @@ impl Rewriting<'_> {
             }
             let resting = |word: &str| RESTING.contains(&word);
             if subject
-                && word == "can"
-                && (["go", "stay", "be", "come", "move"].contains(&next) || resting(next))
+                && (word == "can" && (["go", "stay", "be", "come", "move"].contains(&next) || resting(next))
+                    || word == "may" && ["go", "come", "move"].contains(&next))
             {
                 self.say(index, index + 1, &["should"]);
             } else if ["is", "are"].contains(&word) && self.starts(index + 1, &["not", "to"]) {
@@ -285,13 +285,18 @@ impl Rewriting<'_> {
         }
     }
 
-    /// "the fridge should contain the egg and the milk": those should be in it.
+    /// "the fridge should contain the egg and the milk", "the sofa needs the pillow": those should be in it.
     pub(super) fn containing(&mut self) {
         let mut index = 1;
         while index < self.tokens.len() {
             let shall = usize::from(["should", "must", "shall"].contains(&self.at(index)));
-            let holds = ["contain", "contains", "hold", "holds"].contains(&self.at(index + shall))
-                && (is_determiner(self.at(index + shall + 1)) || shall == 1);
+            let gets = ["needs", "wants", "gets", "get", "receives", "receive"]
+                .contains(&self.at(index + shall))
+                && is_determiner(self.at(index + shall + 1))
+                && self.lexicon.noun(&[self.at(index + shall + 2)]).is_some();
+            let holds = gets
+                || ["contain", "contains", "hold", "holds"].contains(&self.at(index + shall))
+                    && (is_determiner(self.at(index + shall + 1)) || shall == 1);
             let vessel = self.noun_before(index).map_or(0, |noun| noun.len());
             let first = index - vessel;
             let (true, true) = (holds && vessel > 0, first > 0 && is_determiner(self.at(first - 1))) else {
@@ -322,8 +327,11 @@ impl Rewriting<'_> {
         let next = self.at(at + 1 + usize::from(self.at(at + 1) == "and"));
         let ordered = !self.lexicon.verbs(next).is_empty() && self.lexicon.noun(&[next]).is_none();
         ordered
-            || (at + 1..end)
-                .any(|at| SHALL.contains(&self.at(at)) || ["contains", "holds"].contains(&self.at(at)))
+            || (at + 1..end).any(|at| {
+                SHALL.contains(&self.at(at))
+                    || crate::offline::clause::is_going(self.at(at))
+                    || ["contains", "holds", "wants"].contains(&self.at(at))
+            })
     }
 
     /// "everything you cut", "whatever is washed": all of them.

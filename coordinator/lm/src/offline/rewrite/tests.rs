@@ -168,3 +168,50 @@ fn what_is_corrected_or_left_open_is_put_plainly() {
         assert_eq!(plain(said), meant, "{said}");
     }
 }
+
+#[test]
+fn who_does_it_is_left_out() {
+    for (said, meant) in [
+        ("would somebody please rinse the mug", "rinse the mug"),
+        ("wash the cup and have another robot switch off the tv", "wash the cup and switch off the tv"),
+        ("a third person should throw the cd away", "throw the cd away"),
+    ] {
+        assert_eq!(plain(said), meant);
+    }
+}
+
+#[test]
+fn places_are_told_by_what_is_there() {
+    for (said, meant) in [
+        ("the sofa needs the pillow", "the pillow should be in the sofa"),
+        ("put the phone where the laptop was", "put the phone beside the laptop"),
+        (
+            "there is a ball on the desk that should be on the floor, a pen on the bed that should be in the mug",
+            "a ball on the desk should be on the floor . a pen on the bed should be in the mug",
+        ),
+        ("the statue joins it", "the statue should be beside it"),
+        ("move the box that was there to the sofa", "move the box to the sofa"),
+    ] {
+        assert_eq!(plain(said), meant);
+    }
+}
+
+#[test]
+fn what_is_put_in_between_changes_nothing() {
+    for (said, meant) in [
+        ("the clock, though, stays on the desk", "the clock stays on the desk"),
+        ("get the mug ready on the counter", "put the mug on the counter"),
+        ("cook the potato. when cooked put it on the plate", "cook the potato . then put it on the plate"),
+        (
+            "the cloth wants rinsing and then goes on the desk",
+            "the cloth needs rinsing and then put it on the desk",
+        ),
+        ("a slice goes in the toaster", "put a slice in the toaster"),
+        (
+            "the cup is to be washed, the plate put on the table, and the statue left alone",
+            "the cup is to be washed , the plate should be put on the table",
+        ),
+    ] {
+        assert_eq!(plain(said), meant);
+    }
+}

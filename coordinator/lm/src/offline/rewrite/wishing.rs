@@ -1,6 +1,7 @@
 //! Wishes said as questions or as needs, and words that say nothing of the goal: said as what shall be.
 
-use super::{LONGEST_ASIDE, Rewriting};
+use super::{LONGEST_ASIDE, Rewriting, SHALL};
+use crate::offline::clause::is_going;
 use crate::offline::syntax::{is_determiner, preposition};
 
 /// "I could do with …": I want it.
@@ -140,6 +141,34 @@ impl Rewriting<'_> {
             if comma {
                 self.say(index, index, &["should", "be"]);
                 index += 2;
+            }
+            index += 1;
+        }
+    }
+
+    /// "neither the stove nor the tap should be on": both should not be; "make it so that …": make sure of it.
+    pub(super) fn denials(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let opens = index == 0 || [",", ".", "and", "that"].contains(&self.at(index - 1));
+            if self.starts(index, &["make", "it", "so"]) {
+                let that = usize::from(self.at(index + 3) == "that");
+                self.say(index, index + 3 + that, &["make", "sure"]);
+            }
+            if opens && self.at(index) == "neither" {
+                let end = self.next_mark(index, &["."]);
+                let nor = (index..end).find(|&at| self.at(at) == "nor");
+                let shall = nor.and_then(|nor| (nor..end).find(|&at| SHALL[..13].contains(&self.at(at))));
+                let goes = nor.and_then(|nor| (nor..end).find(|&at| is_going(self.at(at))));
+                if let (None, Some(goes)) = (shall, goes) {
+                    self.say(goes, goes + 1, &["should", "be"]);
+                }
+                let shall = shall.or(goes);
+                if let (Some(nor), Some(shall)) = (nor, shall) {
+                    self.say(shall + 1, shall + 1, &["not"]);
+                    self.say(nor, nor + 1, &["and"]);
+                    self.say(index, index + 1, &[]);
+                }
             }
             index += 1;
         }

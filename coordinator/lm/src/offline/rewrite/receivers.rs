@@ -1,0 +1,146 @@
+//! Places told by what is there: "the sofa needs the pillow", "where the laptop was", "the statue joins it", "a ball on
+//! the desk that should be on the floor"; and what is said to stay where it is.
+
+use super::{LONGEST_ASIDE, Rewriting, SHALL};
+use crate::offline::clause::is_going;
+use crate::offline::syntax::is_determiner;
+
+impl Rewriting<'_> {
+    /// "put the phone where the laptop was": beside it, as it were; "the box that was there": the box.
+    pub(super) fn where_things_were(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let to = usize::from(self.at(index - 1) == "to");
+            let put = (to == 1 || self.noun_before(index).is_some() || is_going(self.at(index - 1)))
+                && self.puts_before(index - to);
+            let being = |at: usize| {
+                ["was", "were", "stood"].contains(&self.at(at))
+                    || ["is", "are"].contains(&self.at(at)) && self.at(at + 1) == "now"
+            };
+            if self.at(index) == "where"
+                && is_determiner(self.at(index + 1))
+                && put
+                && let Some(was) = (index + 3..index + 6).find(|&at| being(at))
+                && self.noun_before(was).is_some()
+                && (self.is_mark(was + 1) || ["and", "before", "now"].contains(&self.at(was + 1)))
+            {
+                let more = usize::from(["before", "now"].contains(&self.at(was + 1)));
+                self.say(was, was + 1 + more, &[]);
+                self.say(index - to, index + 1, &["beside"]);
+            } else if ["that", "which"].contains(&self.at(index))
+                && ["was", "is", "were", "are", "stood"].contains(&self.at(index + 1))
+                && self.at(index + 2) == "there"
+                && self.noun_before(index).is_some()
+            {
+                let more = usize::from(self.at(index + 3) == "before");
+                self.say(index, index + 3 + more, &[]);
+            }
+            index += 1;
+        }
+    }
+
+    /// Whether what stands before a place is put there: an order with no place of its own.
+    fn puts_before(&self, end: usize) -> bool {
+        let start = (0..end).rev().find(|&at| self.at(at) == ".").map_or(0, |at| at + 1);
+        let order = (start..end).rev().find(|&at| self.is_order(at));
+        (start..end).any(|at| is_going(self.at(at)) && at + 1 == end)
+            || order.is_some_and(|order| {
+                ["put", "place", "set", "move", "lay", "leave", "bring", "stand"].contains(&self.at(order))
+                    && !(order..end).any(|at| self.is_place(at))
+            })
+    }
+
+    /// "the statue joins it": it is beside it.
+    pub(super) fn company(&mut self) {
+        for index in 1..self.tokens.len() {
+            let next = self.at(index + 1);
+            if ["joins", "join"].contains(&self.at(index))
+                && (is_determiner(next) || ["it", "them"].contains(&next))
+                && self.noun_before(index).is_some()
+            {
+                self.say(index, index + 1, &["should", "be", "beside"]);
+            }
+        }
+    }
+
+    /// "there's a ball on the desk that should be on the floor, a pen on the bed that …": they should be there.
+    pub(super) fn misplaced_things(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let that =
+                ["that", "which"].contains(&self.at(index)) && SHALL[..5].contains(&self.at(index + 1));
+            let start = (0..index).rev().find(|&at| self.is_mark(at)).map_or(0, |at| at + 1);
+            let joined = usize::from(["and", "then"].contains(&self.at(start)));
+            let there = match (self.at(start + joined), self.at(start + joined + 1)) {
+                ("there", "is" | "are") => 2,
+                ("there" | "theres", _) => 1,
+                _ => 0,
+            };
+            let thing = start + joined + there;
+            let some = ["a", "an", "one", "two", "some"].contains(&self.at(thing));
+            let end = self.next_mark(index, &[",", "."]);
+            let once = !(thing..index)
+                .chain(index + 2..end)
+                .any(|at| is_going(self.at(at)) || self.is_mark(at) || SHALL.contains(&self.at(at)));
+            if that
+                && some
+                && once
+                && (thing..index).any(|at| self.is_place(at))
+                && self.noun_before(index).is_some()
+            {
+                self.say(index, index + 1, &[]);
+                self.say(start, thing, &[]);
+                if start > 0 {
+                    self.say(start - 1, start, &["."]);
+                }
+            }
+            index += 1;
+        }
+    }
+
+    /// "of the things on the shelf, the bowl …", "the statue left alone", "what's in the drawer can stay there, but …":
+    /// nothing is done to it.
+    pub(super) fn what_is_left(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let opens = index == 0 || self.at(index - 1) == ".";
+            let end = self.next_mark(index, &[",", "."]);
+            let stays = (index + 1..end).find(|&at| {
+                ["can", "may", "should", "must"].contains(&self.at(at))
+                    && ["stay", "remain"].contains(&self.at(at + 1))
+            });
+            if opens
+                && self.at(index) == "of"
+                && is_determiner(self.at(index + 1))
+                && self.at(end) == ","
+                && end - index <= LONGEST_ASIDE
+            {
+                self.say(index, end + 1, &[]);
+                continue;
+            }
+            if opens
+                && ["what", "whatever"].contains(&self.at(index))
+                && stays.is_some_and(|at| end - at <= 4)
+            {
+                let but = usize::from(["but", "and"].contains(&self.at(end + 1)));
+                self.say(index, end + 1 + but, &[]);
+                continue;
+            }
+            let left = self.at(index) == "left" && self.noun_before(index).is_some();
+            let length = match (self.at(index + 1), self.at(index + 2), self.at(index + 3)) {
+                ("alone" | "untouched", _, _) => 1,
+                ("where" | "as", "it" | "they", "is" | "are") => 3,
+                _ => 0,
+            };
+            if left && length > 0 && self.is_mark(index + 1 + length) {
+                let start = (0..index).rev().find(|&at| self.is_mark(at));
+                let told = start.is_some_and(|start| (start..index).any(|at| SHALL.contains(&self.at(at))));
+                if let (Some(start), false) = (start, told) {
+                    self.say(start, index + 1 + length, &[]);
+                    index = start;
+                }
+            }
+            index += 1;
+        }
+    }
+}
