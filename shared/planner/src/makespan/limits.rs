@@ -5,7 +5,7 @@ use std::time::Duration;
 /// What a plan in a task without conditional effects is worth at least, for each operator, and at most: some tenths of a
 /// second, most of it for the proof, and some seconds. A task that is solved to the end takes what that takes.
 const LEAST_WORK: u64 = 2_500_000;
-const WORK_PER_OPERATOR: u64 = 1_000;
+const WORK_PER_OPERATOR: u64 = 700;
 const MOST_WORK: u64 = 25_000_000;
 
 /// Long schedules of large tasks get more than that: the square of (operators times squared steps, divided by this). What

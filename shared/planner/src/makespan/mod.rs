@@ -103,7 +103,9 @@ impl Asked<'_> {
             let done = step.iter().filter(|(_, variable)| is_true(&model, *variable));
             done.map(|&(operator, _)| OperatorId(operator)).collect::<Vec<_>>()
         };
-        (found, self.operators.iter().map(chosen).collect())
+        let steps =
+            if found == Found::Model { self.operators.iter().map(chosen).collect() } else { Steps::new() };
+        (found, steps)
     }
 }
 

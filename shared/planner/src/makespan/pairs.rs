@@ -257,16 +257,15 @@ impl<'a> Graph<'a> {
         let mut beside = Bits::new(facts, operators);
         let active: Vec<usize> = (0..operators).filter(|&o| self.first[o] != NEVER).collect();
         let mut all_active = Bits::new(1, operators);
+        let mut held = vec![0u64; self.can.words];
+        (0..facts).filter(|&p| self.can.has(p, p)).for_each(|p| held[p / 64] |= 1 << (p % 64));
         for &o in &active {
             all_active.set(0, o);
-            let mut room = vec![u64::MAX; self.can.words];
+            let mut after = held.clone();
             for &p in &self.needs[o] {
-                room.iter_mut().zip(self.can.row(p as usize)).for_each(|(own, other)| *own &= other);
+                after.iter_mut().zip(self.can.row(p as usize)).for_each(|(own, other)| *own &= other);
             }
-            let held = |p: &usize| *p < facts && self.can.has(*p, *p);
-            ones(&room).filter(held).for_each(|p| beside.set(p, o));
-            let mut after = vec![0u64; self.can.words];
-            ones(&room).filter(held).for_each(|p| after[p / 64] |= 1 << (p % 64));
+            ones(&after).for_each(|p| beside.set(p, o));
             self.makes[o].iter().for_each(|&p| after[p as usize / 64] |= 1 << (p % 64));
             after.iter_mut().zip(self.undoes.row(o)).for_each(|(own, undone)| *own &= !undone);
             for &p in &self.makes[o] {
@@ -305,9 +304,10 @@ impl<'a> Graph<'a> {
             if self.undoes.has(a, p) {
                 continue;
             }
-            let open: Vec<usize> = (0..self.lits.len())
-                .filter(|&q| !next.has(p, q) && !self.exclusive.has(p, q) && !self.undoes.has(a, q))
-                .collect();
+            let known = next.row(p).iter().zip(self.exclusive.row(p)).zip(self.undoes.row(a));
+            let open: Vec<u64> =
+                known.map(|((together, apart), undone)| !(together | apart | undone)).collect();
+            let open: Vec<usize> = ones(&open).take_while(|&q| q < self.lits.len()).collect();
             *work = work.saturating_sub((self.lits.len() + open.len() * others.len()) as u64);
             for q in open {
                 let makers = self.makers.row(q).iter().zip(self.undoers.row(p)).zip(others);
