@@ -42,9 +42,16 @@ struct Proof<'f> {
     too_large: bool,
 }
 
-/// Whether a schedule is so much longer than the bound that either is worth more work.
-fn is_wide(proof: &Proof<'_>, makespan: u32) -> bool {
-    u64::from(makespan) * WIDE.1 >= u64::from(proof.bound) * WIDE.0
+impl Proof<'_> {
+    /// Where the schedule is still much longer than the bound when the fuel is used up, there is `more`, once.
+    fn where_wide(&mut self, makespan: u32, more: &mut u64, fuel: &mut Fuel<'_>) {
+        if fuel.work > 0 || u64::from(makespan) * WIDE.1 < u64::from(self.bound) * WIDE.0 {
+            return;
+        }
+        fuel.size = fuel.size.max(*more / WORK_PER_LITERAL);
+        fuel.work = std::mem::take(more);
+        self.too_large = false;
+    }
 }
 
 impl Scheduler<'_> {
@@ -83,11 +90,7 @@ impl Scheduler<'_> {
         let mut round = ROUND;
         let mut more = limits.wide_work.saturating_sub(limits.work);
         while proof.bound < windows.order.makespan {
-            if all.work == 0 && is_wide(&proof, windows.order.makespan) {
-                all.size = all.size.max(more / WORK_PER_LITERAL);
-                all.work = std::mem::take(&mut more);
-                proof.too_large = false;
-            }
+            proof.where_wide(windows.order.makespan, &mut more, &mut all);
             if all.is_empty() {
                 break;
             }
