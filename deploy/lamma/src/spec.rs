@@ -100,6 +100,13 @@ pub struct LmSpec {
     pub alone: bool,
 }
 
+impl LmSpec {
+    /// Whether it is the embedded default as it comes.
+    pub fn is_built_in(&self) -> bool {
+        self.spec == "offline" && self.lexicon.is_none()
+    }
+}
+
 /// The host of the coordinator and the simulator.
 pub const HUB: &str = "hub";
 

@@ -38,7 +38,8 @@ pub fn run(args: &RunArgs, solve_only: bool) -> Result<u8, Failure> {
 /// The run that the arguments ask for, checked as far as that needs no world.
 pub fn spec_of(args: &RunArgs) -> Result<RunSpec, Failure> {
     let mut spec = spec_from(&args.common, source(args)?);
-    if spec.instruction().is_some() {
+    // Where nobody reads, the embedded default is not loaded; what else was asked for is checked all the same.
+    if spec.instruction().is_some() || !spec.lm.is_built_in() {
         check_lm(&args.common)?;
     }
     spec.events = script(&args.common)?;

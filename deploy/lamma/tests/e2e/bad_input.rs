@@ -62,6 +62,12 @@ fn wrong_input_is_told_with_place_and_cure() {
             20,
             &["gpt", "offline"],
         ),
+        case(
+            "unknown model, and nothing to read",
+            &["run", "--pddl", &domain, &problem, "--lm", "gpt"],
+            20,
+            &["gpt", "offline"],
+        ),
         case("unknown command", &["rnu"], 20, &["rnu"]),
         case("missing domain file", &["plan", "nowhere.pddl", &problem], 20, &["nowhere.pddl"]),
         case("a folder for a file", &["plan", ".", &problem], 20, &["cannot read"]),
