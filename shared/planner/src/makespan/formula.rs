@@ -14,6 +14,7 @@ use std::rc::Rc;
 
 use super::layers::Layer;
 use super::model::{Lit, Maker, Model, Threat};
+use super::pieces::Makers;
 use super::sat::{Bool, Clauses, Fuel};
 use super::together::Together;
 
@@ -75,9 +76,10 @@ pub(super) fn formula(
             relying: BTreeMap::new(),
             pieces: BTreeMap::new(),
         };
-        builder.one_action_each(&layers[step + 1]);
+        let makers = builder.makers(&layers[step + 1]);
+        builder.one_action_each(&makers);
         builder.requirements();
-        builder.frame(&layers[step + 1], &variables[step + 1]);
+        builder.frame(&layers[step + 1], &variables[step + 1], &makers);
         for (set, last) in &mut last_done {
             *last = Some(builder.nothing_in_vain(*set, *last));
         }
@@ -243,15 +245,15 @@ impl Step<'_> {
     }
 
     /// What holds after the step: what was made so, or was so and was not undone.
-    fn frame(&mut self, after: &Layer, next: &Variables) {
-        for (&lit, &variable) in after.lits.iter().zip(&next.lits) {
+    fn frame(&mut self, after: &Layer, next: &Variables, makers: &Makers) {
+        for ((&lit, &variable), makers) in after.lits.iter().zip(&next.lits).zip(makers) {
             if self.model.is_derived(lit) {
                 continue;
             }
             let mut support = vec![!variable];
             support.extend(self.layer.lits.binary_search(&lit).ok().map(|at| self.own.lits[at]));
-            for operators in self.makers_by_agent(lit).into_values() {
-                support.extend(self.one_of_these(operators));
+            for operators in makers {
+                support.extend(self.piece(operators));
             }
             for maker in &self.model.makers[lit.index()] {
                 if let Maker::Event(event) = *maker {

@@ -257,11 +257,11 @@ impl<'a> Graph<'a> {
         let mut beside = Bits::new(facts, operators);
         let active: Vec<usize> = (0..operators).filter(|&o| self.first[o] != NEVER).collect();
         let mut all_active = Bits::new(1, operators);
-        let mut held = vec![0u64; self.can.words];
-        (0..facts).filter(|&p| self.can.has(p, p)).for_each(|p| held[p / 64] |= 1 << (p % 64));
+        let mut held = Bits::new(1, facts);
+        (0..facts).filter(|&p| self.can.has(p, p)).for_each(|p| held.set(0, p));
         for &o in &active {
             all_active.set(0, o);
-            let mut after = held.clone();
+            let mut after = held.row(0).to_vec();
             for &p in &self.needs[o] {
                 after.iter_mut().zip(self.can.row(p as usize)).for_each(|(own, other)| *own &= other);
             }
@@ -307,6 +307,7 @@ impl<'a> Graph<'a> {
             let known = next.row(p).iter().zip(self.exclusive.row(p)).zip(self.undoes.row(a));
             let open: Vec<u64> =
                 known.map(|((together, apart), undone)| !(together | apart | undone)).collect();
+            // The last word has bits that stand for no fact.
             let open: Vec<usize> = ones(&open).take_while(|&q| q < self.lits.len()).collect();
             *work = work.saturating_sub((self.lits.len() + open.len() * others.len()) as u64);
             for q in open {

@@ -13,43 +13,15 @@ use super::layers::Layer;
 use super::model::{Lit, Maker};
 use super::sat::Bool;
 
+/// For each literal of the next layer, the operators of the step that make it whatever holds, by agent.
+pub(super) type Makers = Vec<Vec<Vec<u32>>>;
+
 impl Step<'_> {
-    /// Every agent does at most one action: at most one piece, and at most one operator of it. An operator belongs to
-    /// the piece for what the fewest operators of its agent make.
-    pub fn one_action_each(&mut self, after: &Layer) {
-        let mut chosen: Vec<Vec<Bool>> = vec![Vec::new(); self.model.agents];
-        for ((agent, _), operators) in self.by_effect(after) {
-            let variables: Vec<Bool> = operators.iter().filter_map(|&o| self.operator(o)).collect();
-            self.clauses.at_most_one(&variables);
-            chosen[agent as usize].extend(self.one_of_these(operators));
-        }
-        chosen.iter().for_each(|pieces| self.clauses.at_most_one(pieces));
+    pub fn makers(&self, after: &Layer) -> Makers {
+        after.lits.iter().map(|&lit| self.makers_by_agent(lit)).collect()
     }
 
-    /// The operators of the step by agent and the literal of the next layer that the fewest of the agent's make. Those that
-    /// make none come together.
-    fn by_effect(&self, after: &Layer) -> BTreeMap<(u32, Option<Lit>), Vec<u32>> {
-        let agent_of = |operator: u32| self.model.agent_of[operator as usize];
-        // For each operator the literal, and how many make that.
-        let mut rarest: BTreeMap<u32, (usize, Lit)> = BTreeMap::new();
-        for &lit in &after.lits {
-            for operators in self.makers_by_agent(lit).into_values() {
-                for &operator in &operators {
-                    let own = rarest.entry(operator).or_insert((operators.len(), lit));
-                    *own = (*own).min((operators.len(), lit));
-                }
-            }
-        }
-        let mut groups: BTreeMap<(u32, Option<Lit>), Vec<u32>> = BTreeMap::new();
-        for &operator in &self.layer.operators {
-            let lit = rarest.get(&operator).map(|&(_, lit)| lit);
-            groups.entry((agent_of(operator), lit)).or_default().push(operator);
-        }
-        groups
-    }
-
-    /// The operators of the step that make a literal, whatever holds; by agent.
-    pub fn makers_by_agent(&self, lit: Lit) -> BTreeMap<u32, Vec<u32>> {
+    fn makers_by_agent(&self, lit: Lit) -> Vec<Vec<u32>> {
         let mut makers: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for maker in &self.model.makers[lit.index()] {
             if let Maker::Operator(operator) = *maker
@@ -58,16 +30,49 @@ impl Step<'_> {
                 makers.entry(self.model.agent_of[operator as usize]).or_default().push(operator);
             }
         }
-        makers
+        makers.into_values().collect()
+    }
+
+    /// Every agent does at most one action: at most one piece, and at most one operator of it. An operator belongs to
+    /// the piece for what the fewest operators of its agent make.
+    pub fn one_action_each(&mut self, makers: &Makers) {
+        let mut chosen: Vec<Vec<Bool>> = vec![Vec::new(); self.model.agents];
+        for ((agent, _), operators) in self.by_effect(makers) {
+            let variables: Vec<Bool> = operators.iter().filter_map(|&o| self.operator(o)).collect();
+            self.clauses.at_most_one(&variables);
+            chosen[agent as usize].extend(self.piece(&operators));
+        }
+        chosen.iter().for_each(|pieces| self.clauses.at_most_one(pieces));
+    }
+
+    /// The operators of the step by agent and the literal of the next layer, by position, that the fewest of the agent's
+    /// make. Those that make none come together.
+    fn by_effect(&self, makers: &Makers) -> BTreeMap<(u32, Option<usize>), Vec<u32>> {
+        // For each operator how many make the literal, and which it is.
+        let mut rarest: BTreeMap<u32, (usize, usize)> = BTreeMap::new();
+        for (at, by_agent) in makers.iter().enumerate() {
+            for operators in by_agent {
+                for &operator in operators {
+                    let own = rarest.entry(operator).or_insert((operators.len(), at));
+                    *own = (*own).min((operators.len(), at));
+                }
+            }
+        }
+        let mut groups: BTreeMap<(u32, Option<usize>), Vec<u32>> = BTreeMap::new();
+        for &operator in &self.layer.operators {
+            let lit = rarest.get(&operator).map(|&(_, at)| at);
+            groups.entry((self.model.agent_of[operator as usize], lit)).or_default().push(operator);
+        }
+        groups
     }
 
     /// That the agent of these operators does one of them; `None` if there is none.
-    pub fn one_of_these(&mut self, operators: Vec<u32>) -> Option<Bool> {
+    pub fn piece(&mut self, operators: &[u32]) -> Option<Bool> {
         let (&first, others) = operators.split_first()?;
         if others.is_empty() {
             return self.operator(first);
         }
-        if let Some(&known) = self.pieces.get(&operators) {
+        if let Some(&known) = self.pieces.get(operators) {
             return Some(known);
         }
         let piece = self.clauses.variable();
@@ -82,7 +87,7 @@ impl Step<'_> {
                 self.clauses.clause([!piece, relies]);
             }
         }
-        self.pieces.insert(operators, piece);
+        self.pieces.insert(operators.to_vec(), piece);
         Some(piece)
     }
 }
