@@ -7,7 +7,7 @@
 //! `clean` is a quarter of the tasks, by two hashes of the task's id, that nobody has read while the grammar and
 //! the lexicon were written: it reports. `dev` is the rest; failures are shown for it and for `learn` alone. `all` is
 //! both. `learn` is the half that senses are learned from, `held` the other half, of which `clean` is a half;
-//! `HALVES=id|goal|plan` says what they keep together (`examples/learn_senses.rs`).
+//! `HALVES=id|goal|plan` says what they keep together (`examples/learn_senses`).
 //! `LEXICON=DIR` reads the lexicon's files from a folder, so that it may be tuned without building.
 //! `SEED=TEXT` takes other sentences. `STRICT=1` counts a question as a failure and a state that does not last as missing.
 

@@ -41,7 +41,7 @@ pub fn sentences<'t>(tasks: &'t Value, part: &str, limit: usize) -> Vec<(&'t Val
 
 /// Whether a task is in the half that is learned from. A half has whole tasks (`HALVES=id`, unless told otherwise), or
 /// whole kinds of task (`goal`: the same goal in the same rooms), or whole floor plans (`plan`).
-pub fn is_to_learn(task: &Value) -> bool {
+fn is_to_learn(task: &Value) -> bool {
     let plan = task["floor_plan"].as_str().unwrap_or_default();
     match std::env::var("HALVES").as_deref() {
         // The lowest bit of this hash tells little of a name that ends in digits.

@@ -1,7 +1,6 @@
 //! Plainer words for the same thing: subordinate clauses made main ones, asides left out, before the grammar reads.
 
 use super::clause::is_going;
-use super::inflect::VerbForm;
 use super::lexicon::{LONGEST, Lexicon};
 use super::syntax::{is_determiner, preposition};
 use super::text::Token;
@@ -9,12 +8,14 @@ use super::text::Token;
 mod arrangement;
 mod asides;
 mod fragment;
+mod hurry;
+mod looking;
 mod members;
 mod people;
-mod receivers;
 mod saying;
 mod speech;
 mod topic;
+mod whereabouts;
 mod wishing;
 
 /// An aside is no longer than this, in words.
@@ -97,62 +98,6 @@ struct Rewriting<'l> {
 }
 
 impl Rewriting<'_> {
-    fn at(&self, index: usize) -> &str {
-        self.tokens.get(index).map_or("", |token| token.text.as_str())
-    }
-
-    fn starts(&self, index: usize, words: &[&str]) -> bool {
-        words.iter().enumerate().all(|(offset, word)| self.at(index + offset) == *word)
-    }
-
-    /// How many words there are of the one of these sayings that stands here.
-    fn one_of(&self, index: usize, sayings: &[&[&str]]) -> Option<usize> {
-        sayings.iter().find(|said| self.starts(index, said)).map(|said| said.len())
-    }
-
-    /// Whether a preposition of a place stands here: "of" is none.
-    fn is_place(&self, at: usize) -> bool {
-        preposition(&[self.at(at)]).is_some_and(|_| self.at(at) != "of")
-    }
-
-    fn is_verb(&self, at: usize, wanted: VerbForm) -> bool {
-        self.lexicon.verbs(self.at(at)).iter().any(|(form, _, _)| *form == wanted)
-    }
-
-    fn is_base_verb(&self, at: usize) -> bool {
-        self.is_verb(at, VerbForm::Base)
-    }
-
-    /// Whether what stands here gives an order and names nothing.
-    fn is_order(&self, at: usize) -> bool {
-        self.is_base_verb(at) && self.lexicon.noun(&[self.at(at)]).is_none()
-    }
-
-    /// Whether what may have been done stands here: "washed", and those that look like an order.
-    fn is_participle(&self, at: usize) -> bool {
-        self.is_verb(at, VerbForm::Past) || ["put", "cut", "set"].contains(&self.at(at))
-    }
-
-    /// The words of a range, as they are now.
-    fn words(&self, range: std::ops::Range<usize>) -> Vec<String> {
-        range.map(|at| self.at(at).to_owned()).collect()
-    }
-
-    fn is_mark(&self, index: usize) -> bool {
-        index >= self.tokens.len() || [",", "."].contains(&self.at(index))
-    }
-
-    /// Where the next mark of some stands, from a place on.
-    fn next_mark(&self, from: usize, marks: &[&str]) -> usize {
-        (from..self.tokens.len()).find(|&at| marks.contains(&self.at(at))).unwrap_or(self.tokens.len())
-    }
-
-    fn say(&mut self, from: usize, to: usize, words: &[&str]) {
-        let to = to.min(self.tokens.len());
-        let word = |word: &&str| Token { text: (*word).to_owned(), typed: (*word).to_owned() };
-        self.tokens.splice(from..to, words.iter().map(word));
-    }
-
     /// "another the spoon", "a third should …": somebody does it, and no matter who.
     fn subjects(&mut self) {
         const WHO: [&[&str]; 17] = [
@@ -335,15 +280,6 @@ impl Rewriting<'_> {
                 }
             }
         }
-    }
-
-    /// The noun that ends before a place, in words.
-    fn noun_before(&self, end: usize) -> Option<Vec<String>> {
-        (1..=LONGEST.min(end)).rev().find_map(|length| {
-            let words: Vec<&str> = (end - length..end).map(|at| self.at(at)).collect();
-            self.lexicon.noun(&words)?;
-            Some(words.into_iter().map(str::to_owned).collect())
-        })
     }
 
     /// "…, which goes in the fridge": said of the noun before it, in a sentence of its own; "…, which is old, …" is

@@ -70,15 +70,13 @@ impl Rewriting<'_> {
                     || self.lexicon.adjective(&[self.at(index + 2)]).is_some());
             let noun = self.noun_before(index).map(|noun| noun.len());
             if let (true, Some(length)) = (person, noun) {
-                let first = index - length;
-                let mut first = first - usize::from(first > 0 && is_determiner(self.at(first - 1)));
+                let mut first = self.with_determiner(index - length);
                 // "the cup and the plate I want …"
                 if first > 1
                     && self.at(first - 1) == "and"
                     && let Some(other) = self.noun_before(first - 1)
                 {
-                    first -= 1 + other.len();
-                    first -= usize::from(first > 0 && is_determiner(self.at(first - 1)));
+                    first = self.with_determiner(first - 1 - other.len());
                 }
                 if first == 0 || self.is_mark(first - 1) || self.at(first - 1) == "and" {
                     let wish = self.words(index..index + 2);
@@ -125,7 +123,7 @@ impl Rewriting<'_> {
         let mut index = 1;
         while index < self.tokens.len() {
             let own = self.at(index) == "own" && ["its", "their", "his"].contains(&self.at(index - 1));
-            let start = (0..index).rev().find(|&at| self.at(at) == ".").map_or(0, |at| at + 1);
+            let start = self.sentence_start(index);
             let each = (start..index).find(|&at| self.at(at) == "each");
             let (true, Some(each)) = (own, each) else {
                 index += 1;
@@ -153,8 +151,7 @@ impl Rewriting<'_> {
                 plain.extend([joint.clone(), if number == 0 { "one" } else { "another" }.to_owned()]);
                 plain.extend(home.iter().cloned());
             }
-            let plain: Vec<&str> = plain.iter().map(String::as_str).collect();
-            self.say(start, end, &plain);
+            self.say_all(start, end, &plain);
             index = start + plain.len();
         }
     }

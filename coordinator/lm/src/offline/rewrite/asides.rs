@@ -1,8 +1,6 @@
-//! Words put in between that change nothing, and turns of phrase of a hurry: ", though,", "straight into the bin", "get
-//! the mug ready on the counter".
+//! Words put in between that change nothing: ", though,", "straight into the bin", "get the mug ready on the counter".
 
-use super::{LONGEST_ASIDE, Rewriting, SHALL};
-use crate::offline::clause::is_going;
+use super::{LONGEST_ASIDE, Rewriting};
 use crate::offline::syntax::is_determiner;
 
 /// Between commas they only link what is said to what was said.
@@ -50,7 +48,7 @@ impl Rewriting<'_> {
                 }
             } else if self.starts(index, &["the", "following", "done"]) && self.at(index + 3) == "," {
                 // "I need the following done: …"
-                let start = (0..index).rev().find(|&at| self.is_mark(at)).map_or(0, |at| at + 1);
+                let start = self.clause_start(index);
                 self.say(start, index + 4, &[]);
                 index = start;
                 continue;
@@ -73,101 +71,6 @@ impl Rewriting<'_> {
                 && (index == 0 || [",", ".", "and"].contains(&self.at(index - 1)))
             {
                 self.say(index, index + 2, &["take", "out"]);
-            }
-            index += 1;
-        }
-    }
-
-    /// "once the tomato has been sliced and the slices have been put on the plate": they should be put there; "then light
-    /// off": the light is turned off.
-    pub(super) fn hasty_parts(&mut self) {
-        let mut index = 2;
-        while index < self.tokens.len() {
-            let length = self.noun_before(index).map_or(0, |noun| noun.len());
-            let first = index.saturating_sub(length);
-            let first = first - usize::from(length > 0 && first > 0 && is_determiner(self.at(first - 1)));
-            let before = if first > 0 { self.at(first - 1) } else { "" };
-            let slices = self.starts(index.saturating_sub(3), &["and", "the", "slices"]);
-            let start = (0..index).rev().find(|&at| self.at(at) == ".").map_or(0, |at| at + 1);
-            let shall_be = (start..first).any(|at| {
-                self.at(at) == "be"
-                    && at > start
-                    && (SHALL.contains(&self.at(at - 1)) || self.at(at - 1) == "to")
-            });
-            let behind = self.at(index + 1);
-            if length > 0
-                && [",", "and"].contains(&before)
-                && shall_be
-                && self.is_participle(index)
-                && (self.is_place(index + 1) || ["away", "back", "out"].contains(&behind))
-            {
-                // "the cup is to be washed, the plate put on the table"
-                self.say(index, index, &["should", "be"]);
-                index += 2;
-            } else if (length > 0 && before == "and" || slices)
-                && ["has", "have"].contains(&self.at(index))
-                && self.at(index + 1) == "been"
-                && self.is_participle(index + 2)
-            {
-                self.say(index, index + 2, &["should", "be"]);
-            } else if length > 0
-                && before == "then"
-                && ["on", "off"].contains(&self.at(index))
-                && (self.is_mark(index + 1) || ["thx", "thanks", "please"].contains(&self.at(index + 1)))
-            {
-                let thing = self.words(first..index);
-                let mut order = vec!["turn".to_owned(), self.at(index).to_owned()];
-                order.extend(thing);
-                let order: Vec<&str> = order.iter().map(String::as_str).collect();
-                self.say(first, index + 1, &order);
-            }
-            index += 1;
-        }
-    }
-
-    /// "a slice goes in the toaster": put it there; "when cooked put on plate": then put it there; "into the fridge with the
-    /// egg": put it there; "the mug then goes …": it goes there.
-    pub(super) fn orders_in_disguise(&mut self) {
-        let mut index = 0;
-        while index < self.tokens.len() {
-            let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
-            let sliced = ["slice", "slices", "piece", "pieces"].contains(&self.at(index + 1));
-            let counted =
-                is_determiner(self.at(index)) || crate::offline::inflect::number(self.at(index)).is_some();
-            if opens && counted && sliced && is_going(self.at(index + 2)) && self.is_place(index + 3) {
-                self.say(index + 2, index + 3, &[]);
-                self.say(index, index, &["put"]);
-            } else if opens
-                && ["when", "once", "after"].contains(&self.at(index))
-                && (self.is_participle(index + 1) || self.lexicon.adjective(&[self.at(index + 1)]).is_some())
-                && self.is_order(index + 2)
-            {
-                self.say(index, index + 2, &["then"]);
-            } else if (index == 0 || self.at(index - 1) == ".")
-                && ["into", "onto"].contains(&self.at(index))
-                && is_determiner(self.at(index + 1))
-                && let Some(with) = (index + 3..index + 6).find(|&at| self.at(at) == "with")
-                && self.noun_before(with).is_some()
-                && is_determiner(self.at(with + 1))
-            {
-                let end = self.next_mark(with, &[",", "."]);
-                let mut order = vec!["put".to_owned()];
-                order.extend(self.words(with + 1..end));
-                order.extend(self.words(index..with));
-                let order: Vec<&str> = order.iter().map(String::as_str).collect();
-                self.say(index, end, &order);
-            } else if self.starts(index, &["and", "then"])
-                && is_going(self.at(index + 2))
-                && self.is_place(index + 3)
-            {
-                let it = if self.at(index + 2).ends_with('s') { "it" } else { "them" };
-                self.say(index + 2, index + 3, &["put", it]);
-            } else if self.at(index) == "then"
-                && index > 0
-                && is_going(self.at(index + 1))
-                && self.noun_before(index).is_some()
-            {
-                self.say(index, index + 1, &[]);
             }
             index += 1;
         }

@@ -40,10 +40,9 @@ impl Rewriting<'_> {
                 let end = self.next_mark(index + namely + comma, &["."]);
                 let goes = (index..end).any(|at| is_going(self.at(at)) || SHALL.contains(&self.at(at)));
                 if let Some(place) = place.filter(|_| !goes && from < index && end >= self.tokens.len() - 1) {
-                    let list: Vec<String> = self.words(index + namely + comma..end);
-                    let list: Vec<&str> = list.iter().map(String::as_str).collect();
+                    let list = self.words(index + namely + comma..end);
                     self.say(index - 1, end, &[]);
-                    self.say(from, place, &list);
+                    self.say_all(from, place, &list);
                     index += 1;
                     continue;
                 }

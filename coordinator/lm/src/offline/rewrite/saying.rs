@@ -2,6 +2,7 @@
 
 use super::super::inflect::VerbForm;
 use super::{LONGEST_ASIDE, Rewriting, SHALL};
+use crate::offline::clause::is_going;
 use crate::offline::syntax::{is_determiner, preposition};
 
 /// Contractions with "not", apart.
@@ -310,9 +311,8 @@ impl Rewriting<'_> {
             let end =
                 (things..end).rev().find(|&at| ![",", "and"].contains(&self.at(at))).map_or(end, |at| at + 1);
             let mut behind = vec!["should".to_owned(), "be".to_owned(), "in".to_owned()];
-            behind.extend((first - 1..index).map(|at| self.at(at).to_owned()));
-            let behind: Vec<&str> = behind.iter().map(String::as_str).collect();
-            self.say(end, end, &behind);
+            behind.extend(self.words(first - 1..index));
+            self.say_all(end, end, &behind);
             self.say(first - 1, things, &[]);
             index = end;
         }
@@ -329,7 +329,7 @@ impl Rewriting<'_> {
         ordered
             || (at + 1..end).any(|at| {
                 SHALL.contains(&self.at(at))
-                    || crate::offline::clause::is_going(self.at(at))
+                    || is_going(self.at(at))
                     || ["contains", "holds", "wants"].contains(&self.at(at))
             })
     }
@@ -354,7 +354,7 @@ impl Rewriting<'_> {
             let ends = self.is_mark(closes)
                 || preposition(&[behind]).is_some()
                 || SHALL.contains(&behind)
-                || crate::offline::clause::is_going(behind);
+                || is_going(behind);
             if all && (person || being) && past && ends {
                 self.say(index, closes, &["all", "of", "them"]);
             }
@@ -403,7 +403,7 @@ impl Rewriting<'_> {
             // "wash it if it is dirty, otherwise …": the condition first.
             let otherwise = self.at(end) == "," && ["otherwise", "else"].contains(&self.at(end + 1));
             if self.at(index) == "if" && index > 0 && !self.is_mark(index - 1) && otherwise {
-                let start = (0..index).rev().find(|&at| self.is_mark(at)).map_or(0, |at| at + 1);
+                let start = self.clause_start(index);
                 let condition = self.words(index..end);
                 let mut condition: Vec<&str> = condition.iter().map(String::as_str).collect();
                 condition.push(",");

@@ -97,10 +97,9 @@ impl Rewriting<'_> {
                     .find(|&at| self.at(at) == "." || typed != ":" && self.is_closing(at, &typed))
                     .unwrap_or(self.tokens.len());
                 let list = self.words(opens + 1..closes);
-                let list: Vec<&str> = list.iter().map(String::as_str).collect();
                 let after = usize::from(self.tokens.get(closes).is_some_and(|token| token.text == ","));
                 self.say(opens, closes + after, &[]);
-                self.say(index, index + length, &list);
+                self.say_all(index, index + length, &list);
                 index += list.len();
             }
             index += 1;

@@ -134,8 +134,7 @@ impl Rewriting<'_> {
                 index += 1;
                 continue;
             }
-            let first = index - length;
-            let first = first - usize::from(is_determiner(self.at(first - 1)));
+            let first = self.with_determiner(index - length);
             let comma = first > 0 && self.at(first - 1) == ","
                 || first > 1 && self.at(first - 1) == "and" && self.at(first - 2) == ",";
             if comma {

@@ -1,5 +1,5 @@
-//! Places told by what is there: "the sofa needs the pillow", "where the laptop was", "the statue joins it", "a ball on
-//! the desk that should be on the floor"; and what is said to stay where it is.
+//! Places told by what is there: "where the laptop was", "the statue joins it", "a ball on the desk that should be on the
+//! floor"; and what is said to stay where it is.
 
 use super::{LONGEST_ASIDE, Rewriting, SHALL};
 use crate::offline::clause::is_going;
@@ -41,7 +41,7 @@ impl Rewriting<'_> {
 
     /// Whether what stands before a place is put there: an order with no place of its own.
     fn puts_before(&self, end: usize) -> bool {
-        let start = (0..end).rev().find(|&at| self.at(at) == ".").map_or(0, |at| at + 1);
+        let start = self.sentence_start(end);
         let order = (start..end).rev().find(|&at| self.is_order(at));
         (start..end).any(|at| is_going(self.at(at)) && at + 1 == end)
             || order.is_some_and(|order| {
@@ -69,7 +69,7 @@ impl Rewriting<'_> {
         while index < self.tokens.len() {
             let that =
                 ["that", "which"].contains(&self.at(index)) && SHALL[..5].contains(&self.at(index + 1));
-            let start = (0..index).rev().find(|&at| self.is_mark(at)).map_or(0, |at| at + 1);
+            let start = self.clause_start(index);
             let joined = usize::from(["and", "then"].contains(&self.at(start)));
             let there = match (self.at(start + joined), self.at(start + joined + 1)) {
                 ("there", "is" | "are") => 2,
