@@ -90,9 +90,15 @@ impl Ord for Name {
         }
         let (a, b) = (self.text.as_bytes(), other.text.as_bytes());
         // Names are mostly spelt the same way: up to where they differ as they stand, case does not matter.
-        let same = a.iter().zip(b).take_while(|(x, y)| x == y).count();
-        let lower = |byte: &u8| byte.to_ascii_lowercase();
-        a[same..].iter().map(lower).cmp(b[same..].iter().map(lower))
+        let eights = a.as_chunks::<8>().0.iter().zip(b.as_chunks::<8>().0);
+        let same = 8 * eights.take_while(|(x, y)| x == y).count();
+        for (x, y) in a[same..].iter().zip(&b[same..]).filter(|(x, y)| x != y) {
+            let order = x.to_ascii_lowercase().cmp(&y.to_ascii_lowercase());
+            if order.is_ne() {
+                return order;
+            }
+        }
+        a.len().cmp(&b.len())
     }
 }
 impl PartialOrd for Name {

@@ -12,7 +12,7 @@ mod numeric;
 mod problem;
 mod typed;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use crate::ast::{Condition, Domain, GroundAtom, Problem, Term};
@@ -58,7 +58,7 @@ fn parse<T>(
 ) -> Result<Parsed<T>, Report> {
     let mut report = Report::new(source);
     let top = sexpr::read(source, &mut report);
-    let mut parser = Parser { report, names: HashMap::new(), typings: 0 };
+    let mut parser = Parser { report, names: HashSet::new(), typings: 0 };
     let value = top.and_then(|top| read(&mut parser, &top));
     match value {
         Some(value) if !parser.report.has_errors() => Ok(Parsed { value, warnings: parser.report }),
@@ -70,7 +70,7 @@ fn parse<T>(
 struct Parser {
     report: Report,
     // Looked up, never iterated.
-    names: HashMap<String, Arc<str>>,
+    names: HashSet<Arc<str>>,
     /// Pairs of a name and one of its types so far.
     typings: usize,
 }
@@ -108,7 +108,7 @@ impl Parser {
             return Name::shared(Arc::clone(shared), span);
         }
         let shared: Arc<str> = Arc::from(text);
-        self.names.insert(text.to_owned(), Arc::clone(&shared));
+        self.names.insert(Arc::clone(&shared));
         Name::shared(shared, span)
     }
 

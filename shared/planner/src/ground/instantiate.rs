@@ -7,7 +7,9 @@ use super::propositional::{AtomName, Ground, GroundEffect, GroundOperator, Groun
 use super::quantified::Expander;
 use super::reach::Reached;
 use super::{GroundError, GroundLimits};
-use crate::lifted::{Body, Change, Formula, Head, Lifted, LiftedAtom, Role, Schema, Term, describe};
+use crate::lifted::{
+    Applied, Body, Change, ConditionalChange, Formula, Head, Lifted, LiftedAtom, Role, Schema, Term, describe,
+};
 
 /// Turns the fixpoint into a propositional task.
 pub(crate) fn instantiate(
@@ -33,11 +35,17 @@ pub(crate) fn instantiate(
 /// Effects of actions, by the row of the action's reached instance.
 type ByRow<T> = Vec<(u32, T)>;
 
-/// One action's conditional effects.
+/// The conditional effects of one action that depend on the same parameters.
 #[derive(Clone, Default)]
 struct Conditional {
     facts: ByRow<GroundEffect>,
     numbers: ByRow<GroundNumericEffect>,
+}
+
+/// The effects of one row.
+fn of_row<T>(effects: &ByRow<T>, row: u32) -> impl Iterator<Item = &T> {
+    let first = effects.partition_point(|&(of, _)| of < row);
+    effects[first..].iter().take_while(move |&&(of, _)| of == row).map(|(_, effect)| effect)
 }
 
 /// What a literal comes to.
@@ -52,6 +60,10 @@ struct Builder<'a> {
     ground: Ground,
     ticks: Ticks,
     limits: &'a GroundLimits<'a>,
+    /// Arguments of [`crate::lifted::Applied`].
+    projection: Vec<u32>,
+    /// How many effects were copied: instances that no rule counts.
+    copies: usize,
 }
 
 /// The reached facts with their numbers as atoms, and the numbers that never change.
@@ -87,7 +99,15 @@ impl<'a> Builder<'a> {
                 ground.init[atom as usize] = true;
             }
         }
-        Builder { world, expander: Expander::default(), ground, ticks: Ticks::default(), limits }
+        Builder {
+            world,
+            expander: Expander::default(),
+            ground,
+            ticks: Ticks::default(),
+            limits,
+            projection: Vec::new(),
+            copies: 0,
+        }
     }
 
     /// The binding of a rule's scope for one of its instances.
@@ -147,17 +167,21 @@ impl<'a> Builder<'a> {
         Ok(out.windows(2).all(|pair| pair[0].atom() != pair[1].atom()))
     }
 
-    fn effects(&mut self) -> Result<Vec<Conditional>, GroundError> {
+    /// The effects of each action, for each of its [`crate::lifted::Schema::applied`].
+    fn effects(&mut self) -> Result<Vec<Vec<Conditional>>, GroundError> {
         let lifted = self.world.lifted;
-        let mut by_action = vec![Conditional::default(); lifted.schemas.len()];
+        let mut by_action: Vec<_> =
+            lifted.schemas.iter().map(|schema| vec![Conditional::default(); schema.applied.len()]).collect();
         let (mut binding, mut condition) = (Vec::new(), Vec::new());
         for (index, rule) in lifted.rules.iter().enumerate() {
             let Head::Effect { action, effect } = rule.head else { continue };
             let schema = &lifted.schemas[action as usize];
-            let change = &schema.conditional[effect as usize];
+            let ConditionalChange { change, applied } = &schema.conditional[effect as usize];
             // The first atom says that the action was reached, the second of a delete that it can matter.
             let skip = if matches!(change, Change::Delete(_)) { 2 } else { 1 };
-            let into = &mut by_action[action as usize];
+            let into = &mut by_action[action as usize][*applied];
+            let asked = schema.applied[*applied].params.len();
+            let applied = &self.world.reached.relations[schema.applied[*applied].predicate as usize];
             let width = rule.body.bound.len();
             for instance in 0..self.world.reached.counts[index] {
                 let values = &self.world.reached.instances[index][instance * width..(instance + 1) * width];
@@ -166,8 +190,7 @@ impl<'a> Builder<'a> {
                 if !self.condition(index as u32, &rule.body, skip, &mut binding, &mut condition)? {
                     continue;
                 }
-                let applied = &self.world.reached.relations[schema.applied as usize];
-                let Some(row) = applied.find(&values[..schema.params]) else { continue };
+                let Some(row) = applied.find(&values[..asked]) else { continue };
                 let (Change::Add(atom) | Change::Delete(atom)) = change else {
                     let condition = self.ground.store(&condition);
                     into.numbers.extend(self.number(change, condition, &binding).map(|effect| (row, effect)));
@@ -181,7 +204,7 @@ impl<'a> Builder<'a> {
                 into.facts.push((row, GroundEffect { condition, effect }));
             }
         }
-        for effects in &mut by_action {
+        for effects in by_action.iter_mut().flatten() {
             // Stable, so that effects keep the order of their rules.
             effects.facts.sort_by_key(|&(row, _)| row);
             effects.numbers.sort_by_key(|&(row, _)| row);
@@ -200,7 +223,12 @@ impl<'a> Builder<'a> {
         Some(self.world.change((*op, target, value), condition, binding, &mut self.ground.numbers))
     }
 
-    fn operators(&mut self, index: usize, action: u32, effects: &[Conditional]) -> Result<(), GroundError> {
+    fn operators(
+        &mut self,
+        index: usize,
+        action: u32,
+        effects: &[Vec<Conditional>],
+    ) -> Result<(), GroundError> {
         let (lifted, reached) = (self.world.lifted, self.world.reached);
         let (rule, schema) = (&lifted.rules[index], &lifted.schemas[action as usize]);
         let width = rule.body.bound.len();
@@ -227,8 +255,8 @@ impl<'a> Builder<'a> {
                 }
             }
             let effects = &effects[action as usize];
-            let conditional = self.conditional_effects(schema.applied, values, &effects.facts, &mut plain);
-            let numeric = self.numeric_effects(schema, values, &effects.numbers, &binding);
+            let conditional = self.conditional_effects(schema, values, effects, &mut plain)?;
+            let numeric = self.numeric_effects(schema, values, effects, &binding);
             // Where an action both deletes and adds an atom, the add wins; it is the smaller literal.
             plain.sort_unstable();
             plain.dedup_by_key(|lit| lit.atom());
@@ -248,27 +276,47 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
+    /// The row of the reached action that some of its effects begin with.
+    fn row(&mut self, applied: &Applied, values: &[u32]) -> u32 {
+        self.projection.clear();
+        self.projection.extend(applied.params.iter().map(|&param| values[param as usize]));
+        self.world.reached.relations[applied.predicate as usize].find(&self.projection).unwrap_or(UNBOUND)
+    }
+
     /// Copies the effects of one reached action; those whose condition always holds join the plain ones.
     fn conditional_effects(
         &mut self,
-        applied: u32,
+        schema: &Schema,
         values: &[u32],
-        effects: &[(u32, GroundEffect)],
+        effects: &[Conditional],
         plain: &mut Vec<Lit>,
-    ) -> Stretch {
+    ) -> Result<Stretch, GroundError> {
         let start = self.ground.conditional.len() as u32;
-        if !effects.is_empty() {
-            let row = self.world.reached.relations[applied as usize].find(values).unwrap_or(UNBOUND);
-            let first = effects.partition_point(|&(r, _)| r < row);
-            for &(_, effect) in effects[first..].iter().take_while(|&&(r, _)| r == row) {
+        for (applied, effects) in schema.applied.iter().zip(effects).filter(|(_, e)| !e.facts.is_empty()) {
+            let row = self.row(applied, values);
+            for effect in of_row(&effects.facts, row) {
+                self.ticks.tick(self.limits)?;
+                self.copies += 1;
                 if effect.condition.len == 0 {
                     plain.push(effect.effect);
                 } else {
-                    self.ground.conditional.push(effect);
+                    let condition = self.own(effect.condition);
+                    self.ground.conditional.push(GroundEffect { condition, ..*effect });
                 }
             }
         }
-        Stretch { start, len: self.ground.conditional.len() as u32 - start }
+        if self.copies > self.limits.instances {
+            let limit = self.limits.instances as u64;
+            return Err(GroundError::TooLarge { what: "conditional and quantified effects", limit });
+        }
+        Ok(Stretch { start, len: self.ground.conditional.len() as u32 - start })
+    }
+
+    /// A copy of a condition: it is shortened for each effect apart.
+    fn own(&mut self, condition: Stretch) -> Stretch {
+        let start = self.ground.pool.len() as u32;
+        self.ground.pool.extend_from_within(condition.range());
+        Stretch { start, ..condition }
     }
 
     /// Stores the effects on numbers of one reached action, the plain ones first.
@@ -276,7 +324,7 @@ impl<'a> Builder<'a> {
         &mut self,
         schema: &Schema,
         values: &[u32],
-        conditional: &[(u32, GroundNumericEffect)],
+        conditional: &[Conditional],
         binding: &[u32],
     ) -> Stretch {
         let start = self.ground.numbers.effects.len() as u32;
@@ -284,11 +332,14 @@ impl<'a> Builder<'a> {
             let effect = self.number(change, Stretch::default(), binding);
             self.ground.numbers.effects.extend(effect);
         }
-        if !conditional.is_empty() {
-            let row = self.world.reached.relations[schema.applied as usize].find(values).unwrap_or(UNBOUND);
-            let first = conditional.partition_point(|&(r, _)| r < row);
-            let same = conditional[first..].iter().take_while(|&&(r, _)| r == row);
-            self.ground.numbers.effects.extend(same.map(|(_, effect)| effect.clone()));
+        for (applied, effects) in
+            schema.applied.iter().zip(conditional).filter(|(_, e)| !e.numbers.is_empty())
+        {
+            let row = self.row(applied, values);
+            for effect in of_row(&effects.numbers, row) {
+                let condition = self.own(effect.condition);
+                self.ground.numbers.effects.push(GroundNumericEffect { condition, ..effect.clone() });
+            }
         }
         Stretch { start, len: self.ground.numbers.effects.len() as u32 - start }
     }

@@ -307,8 +307,11 @@ impl Instances {
         let conditional = &ground.conditional[operator.conditional.range()];
         let precondition = ground.lits(operator.precondition);
         let watched = |lit: Lit| {
-            let key = self.key_of[lit.atom()];
-            lit.holds() && key != NONE && watched(key)
+            // Most effects of an action that moves something are deletes.
+            lit.holds() && {
+                let key = self.key_of[lit.atom()];
+                key != NONE && watched(key)
+            }
         };
         let adds =
             || effects.iter().map(|&lit| (lit, None)).chain(conditional.iter().map(|e| (e.effect, Some(e))));

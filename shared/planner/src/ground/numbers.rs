@@ -93,9 +93,14 @@ impl Numbers {
         let id = self.initial.len() as u32;
         self.initial.push(world.initial.get(&key).unwrap_or(f64::NAN));
         let symbols = &world.lifted.symbols;
-        let args: String =
-            key[1..].iter().map(|&arg| format!(" {}", symbols.objects[arg as usize])).collect();
-        self.names.push(format!("({}{args})", symbols.functions[key[0] as usize].name));
+        let mut name = String::from("(");
+        name.push_str(symbols.functions[key[0] as usize].name.as_str());
+        for &arg in &key[1..] {
+            name.push(' ');
+            name.push_str(symbols.objects[arg as usize].as_str());
+        }
+        name.push(')');
+        self.names.push(name);
         self.ids.insert(key, id);
         id
     }

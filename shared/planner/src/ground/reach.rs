@@ -155,9 +155,10 @@ impl<'a> Fixpoint<'a> {
     /// Rules that reach no fact are joined once, at the end.
     fn is_late(&self, rule: usize) -> bool {
         match self.lifted.rules[rule].head {
-            Head::Effect { action, effect } => {
-                !matches!(self.lifted.schemas[action as usize].conditional[effect as usize], Change::Add(_))
-            }
+            Head::Effect { action, effect } => !matches!(
+                self.lifted.schemas[action as usize].conditional[effect as usize].change,
+                Change::Add(_)
+            ),
             Head::Act { .. } | Head::Derived(_) => false,
         }
     }
@@ -263,12 +264,13 @@ impl<'a> Fixpoint<'a> {
         let lifted = self.lifted;
         let rule = &lifted.rules[index];
         let width = rule.body.bound.len();
+        let mut projection = Vec::new();
         for instance in 0..count {
             let values = &found[instance * width..(instance + 1) * width];
             let value = |term: &Term| match term {
                 Term::Object(object) => *object,
                 Term::Variable(slot) => {
-                    // Parameters come first and in order; others are looked up.
+                    // An action's parameters come first and in order; others are looked up.
                     match rule.body.bound.get(*slot as usize) {
                         Some(at) if at == slot => values[*slot as usize],
                         _ => rule.body.bound.iter().position(|b| b == slot).map_or(0, |at| values[at]),
@@ -278,8 +280,10 @@ impl<'a> Fixpoint<'a> {
             match &rule.head {
                 Head::Act { action } => {
                     let schema = &lifted.schemas[*action as usize];
-                    if !schema.conditional.is_empty() {
-                        self.add(schema.applied, values);
+                    for applied in &schema.applied {
+                        projection.clear();
+                        projection.extend(applied.params.iter().map(|&param| values[param as usize]));
+                        self.add(applied.predicate, &projection);
                     }
                     for change in &schema.effects {
                         if let Change::Add(atom) = change {
@@ -289,7 +293,7 @@ impl<'a> Fixpoint<'a> {
                 }
                 Head::Effect { action, effect } => {
                     let schema = &lifted.schemas[*action as usize];
-                    if let Change::Add(atom) = &schema.conditional[*effect as usize] {
+                    if let Change::Add(atom) = &schema.conditional[*effect as usize].change {
                         self.add_atom(atom, &value);
                     }
                 }

@@ -131,9 +131,7 @@ impl<'a> Backward<'a> {
             }
         }
         for (action, schema) in lifted.schemas.iter().enumerate() {
-            let plain = schema.effects.iter().zip(0..).map(|(change, at)| (change, false, at));
-            let conditional = schema.conditional.iter().zip(0..).map(|(change, at)| (change, true, at));
-            for (change, conditional, effect) in plain.chain(conditional) {
+            for (change, conditional, effect) in schema.changes() {
                 let maker = Maker { action: action as u32, conditional, effect };
                 match change {
                     Change::Add(atom) => search.makers[kind(atom.predicate, true) as usize].push(maker),
@@ -230,9 +228,7 @@ impl<'a> Backward<'a> {
             }
         }
         schema.cost.iter().for_each(|cost| self.need_numbers(cost, pattern));
-        let plain = schema.effects.iter().zip(0..).map(|(change, at)| (change, false, at));
-        let conditional = schema.conditional.iter().zip(0..).map(|(change, at)| (change, true, at));
-        for (change, conditional, effect) in plain.chain(conditional) {
+        for (change, conditional, effect) in schema.changes() {
             let atom = match change {
                 Change::Add(atom) => {
                     self.falsify(kind(atom.predicate, false), row(atom, pattern));
@@ -351,8 +347,8 @@ impl<'a> Backward<'a> {
 
     fn change(&self, maker: Maker) -> &'a Change {
         let schema = &self.lifted.schemas[maker.action as usize];
-        let changes = if maker.conditional { &schema.conditional } else { &schema.effects };
-        &changes[maker.effect as usize]
+        let at = maker.effect as usize;
+        if maker.conditional { &schema.conditional[at].change } else { &schema.effects[at] }
     }
 
     /// An effect on a number of an action that matters: what it reads is needed; and the number itself, where the

@@ -103,8 +103,9 @@ pub(crate) struct Body {
 pub(crate) enum Head {
     /// The action can be applied.
     Act { action: u32 },
-    /// The action's quantified or conditional effect happens. For a delete effect the deleted atom is the
-    /// second atom of the body: only what can be true need be deleted.
+    /// The action's quantified or conditional effect happens. The first atom of the body says that the action
+    /// was reached ([`Applied`]). For a delete effect the deleted atom is the second: only what can be true need be
+    /// deleted.
     Effect { action: u32, effect: u32 },
     /// The derived atom holds.
     Derived(LiftedAtom),
@@ -126,20 +127,47 @@ pub(crate) enum Change {
     Numeric(AssignOp, LiftedAtom, Expr),
 }
 
+/// "The action was reached", as far as some of its effects ask: only with the parameters that they depend on. Going
+/// somewhere makes a robot leave every other place, wherever it goes: sixty places need sixty instances of that
+/// effect, not sixty for each of sixty goals.
+#[derive(Clone, Debug)]
+pub(crate) struct Applied {
+    /// The predicate that stands for it.
+    pub predicate: u32,
+    /// The slots of its parameters, in ascending order.
+    pub params: Vec<u32>,
+}
+
+/// A conditional or quantified effect; its conditions are rules.
+#[derive(Clone, Debug)]
+pub(crate) struct ConditionalChange {
+    pub change: Change,
+    /// Which of the schema's [`Schema::applied`] its rules begin with.
+    pub applied: usize,
+}
+
 /// An action schema without its conditions, which are rules.
 #[derive(Clone, Debug)]
 pub(crate) struct Schema {
     pub name: Name,
     /// Slots `0..params` of its rules' scopes are the parameters.
     pub params: usize,
-    /// The predicate that stands for "reached", used where there are conditional effects.
-    pub applied: u32,
+    /// What its conditional effects begin with.
+    pub applied: Vec<Applied>,
     /// Effects without conditions and quantifiers.
     pub effects: Vec<Change>,
     /// The others; each has one or more rules.
-    pub conditional: Vec<Change>,
+    pub conditional: Vec<ConditionalChange>,
     /// What the action costs; the sum of these.
     pub cost: Vec<Expr>,
+}
+
+impl Schema {
+    /// Every effect, whether it is conditional, and its place among those that are or are not.
+    pub fn changes(&self) -> impl Iterator<Item = (&Change, bool, u32)> {
+        let plain = self.effects.iter().zip(0..).map(|(change, at)| (change, false, at));
+        plain.chain(self.conditional.iter().zip(0..).map(|(effect, at)| (&effect.change, true, at)))
+    }
 }
 
 /// The whole lifted task.

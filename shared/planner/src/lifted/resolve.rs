@@ -4,7 +4,7 @@
 use lamma_pddl::Name;
 use lamma_pddl::ast::{Atom, Comparison, Condition, FunctionTerm, NumericExpr, Term as AstTerm, TypedName};
 
-use super::{Expr, Formula, LiftedAtom, LiftedComparison, Symbols, Term, number};
+use super::{Change, Expr, Formula, LiftedAtom, LiftedComparison, Symbols, Term, number};
 use crate::ground::GroundError;
 use crate::numeric::Relation;
 
@@ -298,6 +298,17 @@ fn collect_variables(formula: &Formula, used: &mut Vec<u32>, quantified: &mut Ve
             collect_variables(inner, used, quantified);
         }
     }
+}
+
+/// The variables of what an effect does.
+pub(super) fn change_variables(change: &Change) -> Vec<u32> {
+    let mut used = Vec::new();
+    let (Change::Add(of) | Change::Delete(of) | Change::Numeric(_, of, _)) = change;
+    expression_variables(&Expr::Value(of.clone()), &mut used);
+    if let Change::Numeric(_, _, value) = change {
+        expression_variables(value, &mut used);
+    }
+    used
 }
 
 fn expression_variables(expression: &Expr, used: &mut Vec<u32>) {

@@ -1,12 +1,13 @@
 //! From actions, axioms and the goal to rules.
 
+use lamma_pddl::Name;
 use lamma_pddl::ast::{Domain, Init, Problem};
 
 use super::metric::Metric;
-use super::resolve::{Scope, formula, free_variables};
+use super::resolve::{Scope, change_variables, formula, free_variables};
 use super::{
-    Body, Change, Formula, Head, Lifted, LiftedAtom, Role, Rule, Schema, Symbols, Term, describe, effects,
-    metric,
+    Applied, Body, Change, ConditionalChange, Formula, Head, Lifted, LiftedAtom, Role, Rule, Schema, Symbols,
+    Term, describe, effects, metric,
 };
 use crate::ground::GroundError;
 
@@ -86,15 +87,22 @@ impl Lifter {
         let params = scope.open(&mut self.symbols, &action.params);
         let precondition = formula(&mut self.symbols, &mut scope, &action.precondition, true, 0)?;
         let effects::Parts { plain, conditional, cost } = effects::split(self, &mut scope, action, metric)?;
-        let applied = self.symbols.fresh_predicate(format!("@{}", action.name), params.len(), Role::Applied);
         for body in self.bodies(precondition, &scope, params.clone(), false) {
             self.rules.push(Rule { head: Head::Act { action: index }, body });
         }
-        let reached =
-            LiftedAtom { predicate: applied, args: params.iter().map(|&p| Term::Variable(p)).collect() };
+        let mut applied = Vec::new();
         let mut changes = Vec::with_capacity(conditional.len());
         for (effect, (quantified, condition, change)) in conditional.into_iter().enumerate() {
-            let bound = params.iter().chain(&quantified).copied().collect();
+            let mut asked = free_variables(&condition);
+            asked.extend(change_variables(&change));
+            let asked: Vec<u32> = params.iter().copied().filter(|param| asked.contains(param)).collect();
+            let at = self.applied(&mut applied, &action.name, asked);
+            let Applied { predicate, params: asked } = &applied[at];
+            let reached = LiftedAtom {
+                predicate: *predicate,
+                args: asked.iter().map(|&param| Term::Variable(param)).collect(),
+            };
+            let bound = asked.iter().chain(&quantified).copied().collect();
             for mut body in self.bodies(condition, &scope, bound, true) {
                 if let Change::Delete(atom) = &change {
                     // "Deleted if it holds" is "deleted".
@@ -104,7 +112,7 @@ impl Lifter {
                 body.atoms.insert(0, reached.clone());
                 self.rules.push(Rule { head: Head::Effect { action: index, effect: effect as u32 }, body });
             }
-            changes.push(change);
+            changes.push(ConditionalChange { change, applied: at });
         }
         Ok(Schema {
             name: action.name.clone(),
@@ -113,6 +121,16 @@ impl Lifter {
             effects: plain,
             conditional: changes,
             cost,
+        })
+    }
+
+    /// The place in `known` of "the action was reached" with these parameters.
+    fn applied(&mut self, known: &mut Vec<Applied>, action: &Name, params: Vec<u32>) -> usize {
+        known.iter().position(|applied| applied.params == params).unwrap_or_else(|| {
+            let name = format!("@{action}{}", known.len());
+            let predicate = self.symbols.fresh_predicate(name, params.len(), Role::Applied);
+            known.push(Applied { predicate, params });
+            known.len() - 1
         })
     }
 
@@ -197,5 +215,27 @@ impl Lifter {
                 body.atoms.push(atom);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use lamma_pddl::{Source, parse_domain, parse_problem};
+
+    #[test]
+    fn an_effect_begins_with_the_parameters_it_depends_on() {
+        let domain = "(define (domain d) (:requirements :adl) (:predicates (at ?r ?p) (lit ?p) (seen ?r ?p))
+            (:action go :parameters (?r ?from ?to) :precondition (at ?r ?from)
+              :effect (and (forall (?p) (when (at ?r ?p) (not (at ?r ?p)))) (at ?r ?to)
+                           (when (lit ?to) (seen ?r ?to)) (forall (?p) (when (lit ?p) (seen ?r ?p))))))";
+        let problem = "(define (problem p) (:domain d) (:objects a b) (:init (at a b)) (:goal (at a a)))";
+        let domain = parse_domain(&Source::new("domain", domain)).expect("a domain").value;
+        let problem = parse_problem(&Source::new("problem", problem)).expect("a problem").value;
+        let lifted = super::lift(&domain, &problem).expect("a task");
+        let schema = &lifted.schemas[0];
+        let params: Vec<&[u32]> = schema.applied.iter().map(|applied| &applied.params[..]).collect();
+        assert_eq!(params, [&[0][..], &[0, 2]]);
+        let groups: Vec<usize> = schema.conditional.iter().map(|effect| effect.applied).collect();
+        assert_eq!(groups, [0, 1, 0]);
     }
 }

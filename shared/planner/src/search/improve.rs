@@ -12,7 +12,7 @@ use crate::task::{OperatorId, Task};
 
 /// What grounding and preparing take for each part of the relaxed task, and what a unit of the search's work takes,
 /// in nanoseconds.
-const PREPARATION: u64 = 250;
+const PREPARATION: u64 = 200;
 const WORK: u64 = 2;
 
 /// What searching again for the whole plan may take, in parts of the relaxed task looked at, and what is counted for each
