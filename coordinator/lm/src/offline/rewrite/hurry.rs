@@ -67,12 +67,12 @@ impl Rewriting<'_> {
                 && self.is_order(index + 2)
             {
                 self.say(index, index + 2, &["then"]);
-            } else if (index == 0 || self.at(index - 1) == ".")
+            } else if (index == 0 || self.at(index - 1) == "." || self.tokens[index - 1].typed == ":")
                 && ["into", "onto"].contains(&self.at(index))
                 && is_determiner(self.at(index + 1))
                 && let Some(with) = (index + 3..index + 6).find(|&at| self.at(at) == "with")
                 && self.noun_before(with).is_some()
-                && is_determiner(self.at(with + 1))
+                && (is_determiner(self.at(with + 1)) || ["it", "them"].contains(&self.at(with + 1)))
             {
                 let end = self.next_mark(with, &[",", "."]);
                 let mut order = vec!["put".to_owned()];

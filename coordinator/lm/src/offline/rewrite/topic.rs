@@ -74,7 +74,8 @@ impl Rewriting<'_> {
                 ("the", "following", "things" | "items" | "objects") => 3,
                 (number, "things" | "items" | "objects", _)
                     if (preposition(&[self.at(index + 2)]).is_some_and(|_| self.at(index + 2) != "to")
-                        || self.is_opening(index + 2))
+                        || self.is_opening(index + 2)
+                        || is_going(self.at(index + 2)))
                         && (["several", "some", "few", "these"].contains(&number)
                             || crate::offline::inflect::number(number).is_some()) =>
                 {
@@ -156,7 +157,8 @@ impl Rewriting<'_> {
         };
         let first = (0..self.tokens.len()).find(|&at| stands(self, at, "first"));
         let Some(first) = first else { return };
-        if let Some(second) = (first..self.tokens.len()).find(|&at| stands(self, at, "second")) {
+        let second = |at: &usize| ["second", "last", "other"].iter().any(|word| stands(self, *at, word));
+        if let Some(second) = (first + 2..self.tokens.len()).find(second) {
             self.say(first + 1, first + 2, &["former"]);
             self.say(second + 1, second + 2, &["latter"]);
         }
@@ -243,7 +245,13 @@ impl Rewriting<'_> {
                 (index + 2..end).find(|&at| ["in", "on", "inside", "onto", "into"].contains(&self.at(at)));
             let named =
                 place.is_some_and(|at| is_determiner(self.at(at + 1)) && self.noun_before(at).is_some());
-            if opens && named && self.is_mark(end) && self.noun_before(end).is_some() {
+            // "with the remote beside it"
+            let beside = (index + 2..end).find(|&at| ["beside", "near", "under"].contains(&self.at(at)));
+            let beside_it = beside.is_some_and(|at| {
+                ["it", "them"].contains(&self.at(at + 1)) && at + 2 == end && self.noun_before(at).is_some()
+            });
+            let told = named && self.noun_before(end).is_some() || beside_it;
+            if opens && told && self.is_mark(end) {
                 self.say(index, index + 1, &["and", "put"]);
             }
             index += 1;
