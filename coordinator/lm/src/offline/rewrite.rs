@@ -36,9 +36,9 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.contractions();
     text.duties();
     text.corrections();
-    text.sightings();
     text.people();
     text.doers();
+    text.sightings();
     text.empty_words();
     text.words_between();
     text.loose_amounts();
@@ -50,6 +50,8 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.places_in_relatives();
     text.one_and_the_other();
     text.shares();
+    text.done_and_put();
+    text.done_first();
     text.joined_conditions();
     text.hasty_parts();
     text.orders_in_disguise();

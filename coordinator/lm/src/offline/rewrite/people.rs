@@ -110,7 +110,9 @@ impl Rewriting<'_> {
     fn done_by_somebody(&self, verb: usize) -> Option<String> {
         let word = self.at(verb);
         let next = self.at(verb + 1);
-        let done_to = is_determiner(next) || ["it", "them", "on", "off", "both"].contains(&next);
+        let done_to = is_determiner(next)
+            || ["it", "them", "on", "off", "both"].contains(&next)
+            || word == "sees" && next == "to";
         // "the other gets the pillow" is said of a thing.
         let takes = ["gets", "needs", "wants", "takes", "holds", "contains", "is", "has", "was", "does"];
         if !word.ends_with('s') || is_going(word) || takes.contains(&word) || !done_to {

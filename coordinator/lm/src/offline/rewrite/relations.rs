@@ -165,6 +165,66 @@ impl Rewriting<'_> {
         }
     }
 
+    /// "should be washed and put on a burner": put it there, and nothing is switched on.
+    pub(super) fn done_and_put(&mut self) {
+        let mut index = 2;
+        while index < self.tokens.len() {
+            let start = self.sentence_start(index);
+            let be = (start..index).rev().find(|&at| self.at(at) == "be");
+            let shall = be.filter(|&be| be > start && SHALL.contains(&self.at(be - 1)));
+            let done = shall.is_some_and(|be| {
+                self.is_participle(be + 1) && !(be..index).any(|at| self.is_order(at) && at > be + 1)
+            });
+            let joined = ["and", ","].contains(&self.at(index - 1));
+            if done && joined && self.at(index) == "put" && self.is_place(index + 1) {
+                let both = shall.is_some_and(|be| {
+                    (self.clause_start(be)..be).any(|at| ["and", "they", "both"].contains(&self.at(at)))
+                });
+                self.say(index + 1, index + 1, if both { &["them"] } else { &["it"] });
+            }
+            index += 1;
+        }
+    }
+
+    /// "should be on a burner once washed": washed, and then there; "when it's brewed, …": then; "leaving the knife where
+    /// it is": nothing is done to it.
+    pub(super) fn done_first(&mut self) {
+        const READY: [&str; 6] = ["brewed", "through", "made", "over", "boiled", "finished"];
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let end = self.next_mark(index, &[",", "."]);
+            let start = self.clause_start(index);
+            let be = (start..index).find(|&at| self.at(at) == "be" && self.is_place(at + 1));
+            if ["once", "when", "after"].contains(&self.at(index))
+                && index + 2 == end
+                && self.is_participle(index + 1)
+                && let Some(be) = be
+            {
+                let done = self.at(index + 1).to_owned();
+                self.say(index, index + 2, &[]);
+                self.say(be + 1, be + 1, &[&done, "and", "put", "it"]);
+            } else if ["leaving", "keeping"].contains(&self.at(index))
+                && self.is_mark(index - 1)
+                && (self.starts(end.saturating_sub(3), &["where", "it", "is"])
+                    || self.starts(end.saturating_sub(3), &["where", "they", "are"])
+                    || ["alone", "untouched", "there"].contains(&self.at(end - 1)))
+            {
+                self.say(index - 1, end, &[]);
+            }
+            let opens = index < 2 || self.is_mark(index - 2);
+            let is = usize::from(["is", "has", "been"].contains(&self.at(index + 1)));
+            if opens
+                && ["once", "when", "after"].contains(&self.at(index - 1))
+                && ["it", "its", "that", "thats"].contains(&self.at(index))
+                && READY.contains(&self.at(index + 1 + is))
+                && self.at(index + 2 + is) == ","
+            {
+                self.say(index - 1, index + 3 + is, &["then"]);
+            }
+            index += 1;
+        }
+    }
+
     /// "when the blinds are shut and the lamp is on, …": both shall be so.
     pub(super) fn joined_conditions(&mut self) {
         let mut index = 0;

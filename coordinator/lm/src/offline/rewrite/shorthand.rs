@@ -121,8 +121,9 @@ impl Rewriting<'_> {
     /// Whether the noun that ends before a place is a plural.
     fn noun_is_plural(&self, end: usize) -> bool {
         let words = self.noun_before(end).unwrap_or_default();
+        let ends = words.last().is_some_and(|last| last.ends_with('s') && !last.ends_with("ss"));
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
-        self.lexicon.noun(&words).is_some_and(|(_, plural)| plural)
+        ends || self.lexicon.noun(&words).is_some_and(|(_, plural)| plural)
     }
 
     /// "ought to", "is supposed to", "had better": should.

@@ -68,7 +68,7 @@ impl Rewriting<'_> {
     /// "put the following in the box: the cup and the mug", "stack these on the table - cups, plates -": the things
     /// themselves.
     pub(super) fn announced_lists(&mut self) {
-        let mut index = 1;
+        let mut index = 0;
         while index < self.tokens.len() {
             let length = match (self.at(index), self.at(index + 1), self.at(index + 2)) {
                 ("the", "following", "things" | "items" | "objects") => 3,
