@@ -39,6 +39,10 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.people();
     text.doers();
     text.sightings();
+    text.taken_back();
+    text.counted_wishes();
+    text.states_in_asides();
+    text.being_done();
     text.empty_words();
     text.words_between();
     text.loose_amounts();
@@ -50,7 +54,6 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.places_in_relatives();
     text.one_and_the_other();
     text.shares();
-    text.done_and_put();
     text.done_first();
     text.joined_conditions();
     text.hasty_parts();
@@ -61,6 +64,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.misplaced_things();
     text.roundabout_wishes();
     text.small_verbs();
+    text.done_and_put();
     text.first_and_last();
     text.places_apart();
     text.reasons_before_so();
@@ -182,7 +186,10 @@ impl Rewriting<'_> {
 
     /// "Clear the table: the mug goes …": what is said behind the colon says how.
     fn headings(&mut self) {
-        const WEAK: [&str; 12] = [
+        const WEAK: [&str; 15] = [
+            "all",
+            "i",
+            "we",
             "clear",
             "tidy",
             "sort",

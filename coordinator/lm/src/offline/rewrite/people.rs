@@ -36,7 +36,8 @@ const SOMEBODY: [&[&str]; 26] = [
 ];
 
 /// One of several who do something.
-const ONE_OF_SEVERAL: [&[&str]; 14] = [
+const ONE_OF_SEVERAL: [&[&str]; 15] = [
+    &["the", "rest"],
     &["the", "first"],
     &["the", "second"],
     &["the", "third"],
@@ -83,6 +84,11 @@ impl Rewriting<'_> {
                 && !is_going(self.at(verb + 1));
             if ordered {
                 self.say(index, verb + 1, &[]);
+            } else if ["others", "rest"].contains(&self.at(verb - 1))
+                && self.is_order(verb)
+                && is_determiner(self.at(verb + 1))
+            {
+                self.say(index, verb, &[]);
             } else if let Some(base) = self.done_by_somebody(verb) {
                 self.say(index, verb + 1, &[&base]);
             }
@@ -115,7 +121,10 @@ impl Rewriting<'_> {
             || word == "sees" && next == "to";
         // "the other gets the pillow" is said of a thing.
         let takes = ["gets", "needs", "wants", "takes", "holds", "contains", "is", "has", "was", "does"];
-        if !word.ends_with('s') || is_going(word) || takes.contains(&word) || !done_to {
+        let carried = word == "takes"
+            && (verb..self.next_mark(verb, &[",", "."])).any(|at| ["to", "into"].contains(&self.at(at)));
+        let takes = takes.contains(&word) && !carried;
+        if !word.ends_with('s') || is_going(word) || takes || !done_to {
             return None;
         }
         let stems = [word.strip_suffix("es"), word.strip_suffix('s')];

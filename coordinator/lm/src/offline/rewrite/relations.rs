@@ -3,6 +3,7 @@
 
 use super::{LONGEST_ASIDE, Rewriting, SHALL};
 use crate::offline::clause::is_going;
+use crate::offline::inflect::VerbForm;
 use crate::offline::syntax::is_determiner;
 
 impl Rewriting<'_> {
@@ -55,8 +56,11 @@ impl Rewriting<'_> {
         let rest = shall + 1..end;
         let plain = rest.clone().all(|at| {
             is_going(self.at(at))
-                || ["be", "too", "also", "as", "well", "stand", "sit", "end", "up", "both"]
-                    .contains(&self.at(at))
+                || [
+                    "be", "too", "also", "as", "well", "stand", "sit", "lie", "rest", "live", "end", "up",
+                    "both",
+                ]
+                .contains(&self.at(at))
         });
         if !plain {
             return false;
@@ -160,6 +164,59 @@ impl Rewriting<'_> {
             let goes_on = self.is_place(end + 1);
             if joins && who && being && self.at(end) == "," && goes_on && end - index <= LONGEST_ASIDE {
                 self.say(index, end + 1, &[]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "put the knife, once cleaned, in the drawer", "the bowl, once it has been washed, holds …": the clean knife, the
+    /// washed bowl.
+    pub(super) fn states_in_asides(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let noun = self.noun_before(index).map_or(0, |noun| noun.len());
+            let joins = ["once", "when", "after"].contains(&self.at(index + 1));
+            let end = self.next_mark(index + 1, &[",", "."]);
+            let who = usize::from(["it", "they", "its"].contains(&self.at(index + 2)));
+            let being = (index + 2 + who..end)
+                .take_while(|&at| ["is", "are", "has", "have", "been"].contains(&self.at(at)))
+                .count();
+            let state = index + 2 + who + being;
+            if self.at(index) == ","
+                && noun > 0
+                && index > noun
+                && is_determiner(self.at(index - noun - 1))
+                && joins
+                && state + 1 == end
+                && self.at(end) == ","
+                && self.lexicon.adjective(&[self.at(state)]).is_some_and(|state| !state.selects)
+            {
+                let state = self.at(state).to_owned();
+                self.say(index, end + 1, &[]);
+                self.say(index - noun, index - noun, &[&state]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "while the bread is being sliced, …": it should be sliced.
+    pub(super) fn being_done(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let end = self.next_mark(index, &[",", "."]);
+            let being = (index + 2..end)
+                .find(|&at| ["is", "are"].contains(&self.at(at)) && self.at(at + 1) == "being");
+            if ["while", "whilst"].contains(&self.at(index))
+                && is_determiner(self.at(index + 1))
+                && let Some(being) = being
+                && self.noun_before(being).is_some()
+                && self.is_verb(being + 2, VerbForm::Past)
+                && being + 3 == end
+                && self.at(end) == ","
+            {
+                self.say(end, end + 1, &["."]);
+                self.say(being, being + 2, &["should", "be"]);
+                self.say(index, index + 1, &[]);
             }
             index += 1;
         }

@@ -99,6 +99,13 @@ impl Rewriting<'_> {
                 self.say(there, there + 2, &[]);
                 let all: &[&str] = if self.noun_is_plural(there) { &["all", "the"] } else { &["the"] };
                 self.say(index, index + 1, all);
+            } else if ["whatever", "any", "what"].contains(&self.at(index))
+                && let Some(lie) = (index + 2..index + 5).find(|&at| self.lies_about(at) > 0)
+                && self.noun_before(lie).is_some()
+            {
+                self.say(lie, lie + self.lies_about(lie), &[]);
+                let all: &[&str] = if self.noun_is_plural(lie) { &["all", "the"] } else { &["the"] };
+                self.say(index, index + 1, all);
             } else if self.starts(index, &["the", "whole", "lot"]) && self.at(index + 3) != "of" {
                 self.say(index, index + 3, &["all", "of", "them"]);
             } else if self.starts(index, &["the", "lot"]) && self.at(index + 2) != "of" {
@@ -113,6 +120,49 @@ impl Rewriting<'_> {
                 && self.starts(index + 1, &["to", "be"])
             {
                 self.say(index, index + 2, &["should"]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "(that) are lying around", "is left": how many words say no more than that it is there.
+    fn lies_about(&self, at: usize) -> usize {
+        let that = usize::from(["that", "which"].contains(&self.at(at)));
+        let is = usize::from(["is", "are"].contains(&self.at(at + that)));
+        let how = at + that + is;
+        let lying = usize::from(["lying", "standing", "sitting", "left", "still"].contains(&self.at(how)));
+        let about = usize::from(["around", "about", "there", "over"].contains(&self.at(how + lying)));
+        let length = that + is + lying + about;
+        let ends = self.is_mark(at + length) || self.at(at + length) == "and";
+        if is + about > 0 && lying + about > 0 && is > 0 && ends { length } else { 0 }
+    }
+
+    /// "put the egg …, no, scratch that, put …": only what is said then; counts for the sentence before.
+    pub(super) fn taken_back(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let back = ["scratch", "strike"].contains(&self.at(index)) && self.at(index + 1) == "that";
+            if back && self.is_mark(index + 2) {
+                let before = (0..index).rev().find(|&at| !self.is_mark(at) && self.at(at) != "no");
+                let start = before.map_or(0, |at| self.sentence_start(at));
+                self.say(start, index + 3, &[]);
+                index = start;
+            }
+            index += 1;
+        }
+    }
+
+    /// "the first thing I want is the cup on the desk; the second, …": I want it there.
+    pub(super) fn counted_wishes(&mut self) {
+        const COUNTED: [&str; 6] = ["first", "second", "third", "fourth", "last", "next"];
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let opens = index == 0 || [",", ".", "and"].contains(&self.at(index - 1));
+            let counted = self.at(index) == "the" && COUNTED.contains(&self.at(index + 1)) && opens;
+            if counted && self.starts(index + 2, &["thing", "i", "want", "is"]) {
+                self.say(index, index + 6, &["i", "want"]);
+            } else if counted && self.at(index + 2) == "," && is_determiner(self.at(index + 3)) {
+                self.say(index, index + 3, &[]);
             }
             index += 1;
         }

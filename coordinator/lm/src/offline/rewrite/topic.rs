@@ -75,6 +75,7 @@ impl Rewriting<'_> {
                 (number, "things" | "items" | "objects", _)
                     if (preposition(&[self.at(index + 2)]).is_some_and(|_| self.at(index + 2) != "to")
                         || self.is_opening(index + 2)
+                        || self.at(index + 2) == "," && is_determiner(self.at(index + 3))
                         || is_going(self.at(index + 2)))
                         && (["several", "some", "few", "these"].contains(&number)
                             || crate::offline::inflect::number(number).is_some()) =>
@@ -89,6 +90,12 @@ impl Rewriting<'_> {
                 }
                 _ => 0,
             };
+            let comma = length == 2 && self.at(index + 2) == "," && !self.is_opening(index + 2);
+            if comma {
+                // "two things, the cup and the mug"
+                self.say(index, index + 3, &[]);
+                continue;
+            }
             let opens = (index..self.tokens.len().min(index + LONGEST_ASIDE + 4))
                 .find(|&at| self.is_opening(at))
                 .filter(|_| length > 0);
