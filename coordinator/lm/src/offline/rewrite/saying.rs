@@ -300,7 +300,11 @@ impl Rewriting<'_> {
                     && (is_determiner(self.at(index + shall + 1)) || shall == 1);
             let told_apart = ["other", "former", "latter"].contains(&self.at(index - 1)) && gets;
             let vessel = self.noun_before(index).map_or(usize::from(told_apart), |noun| noun.len());
-            let first = index - vessel;
+            let mut first = index - vessel;
+            // "the washed bowl holds …"
+            while vessel > 0 && first > 1 && self.lexicon.adjective(&[self.at(first - 1)]).is_some() {
+                first -= 1;
+            }
             let named = first > 0 && (is_determiner(self.at(first - 1)) || self.at(first - 1) == "one");
             let (true, true) = (holds && vessel > 0, named) else {
                 index += 1;
