@@ -128,7 +128,14 @@ impl<'a> Discourse<'a> {
                 self.all_of_them(wants)
             }
             Head::Pronoun { .. } if is_all_of_it(&phrase.text) => self.all_of_it(wants),
-            Head::Pronoun { plural } => self.pronoun(*plural, wants),
+            Head::Pronoun { plural } => {
+                let found = self.pronoun(*plural, wants);
+                // "take the cup, the pan and the pot; put one in the sink": no matter which is not said.
+                if phrase.text == "one" && found.len() > 1 {
+                    self.problem("it is not said which of them is meant".to_owned(), 0.3);
+                }
+                found
+            }
             Head::Slices => self.slices(matches!(phrase.quantity, Quantity::Plural | Quantity::All)),
             Head::Everything => self.everything(phrase, at, wants),
             // "the door", "the lid": of what was spoken of.

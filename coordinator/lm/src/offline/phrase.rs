@@ -52,7 +52,9 @@ impl Parser<'_> {
         }
         let Front { mut phrase, quantity, sliced, plural, .. } = front;
         phrase.head = head;
+        let any = plural && quantity == Some(Quantity::One) && self.words[start] == "any";
         phrase.quantity = match (quantity, &phrase.head) {
+            (Some(Quantity::One), Head::Noun(_)) if any => Quantity::All,
             (Some(Quantity::Plural), _) | (None, _) if plural => Quantity::Plural,
             // "some bread" is not several.
             (Some(Quantity::Plural), Head::Noun(noun)) if !noun.class => Quantity::One,

@@ -11,8 +11,11 @@ mod fragment;
 mod hurry;
 mod looking;
 mod members;
+mod pairs;
 mod people;
+mod relations;
 mod saying;
+mod shorthand;
 mod speech;
 mod topic;
 mod whereabouts;
@@ -31,10 +34,28 @@ const SHALL: [&str; 14] = [
 pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
+    text.duties();
     text.corrections();
     text.people();
+    text.doers();
+    text.sightings();
+    text.taken_back();
+    text.counted_wishes();
+    text.states_in_asides();
+    text.being_done();
     text.empty_words();
     text.words_between();
+    text.loose_amounts();
+    text.particles_first();
+    text.clefts();
+    text.colon_notes();
+    text.asides_of_order();
+    text.where_it_stood();
+    text.places_in_relatives();
+    text.one_and_the_other();
+    text.shares();
+    text.done_first();
+    text.joined_conditions();
     text.hasty_parts();
     text.orders_in_disguise();
     text.what_is_left();
@@ -43,6 +64,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.misplaced_things();
     text.roundabout_wishes();
     text.small_verbs();
+    text.done_and_put();
     text.first_and_last();
     text.places_apart();
     text.reasons_before_so();
@@ -164,7 +186,10 @@ impl Rewriting<'_> {
 
     /// "Clear the table: the mug goes …": what is said behind the colon says how.
     fn headings(&mut self) {
-        const WEAK: [&str; 12] = [
+        const WEAK: [&str; 15] = [
+            "all",
+            "i",
+            "we",
             "clear",
             "tidy",
             "sort",

@@ -342,6 +342,8 @@ impl<'a> Parser<'a> {
                 (*form == VerbForm::Past || ["put", "set"].contains(&word))
                     && particles.len() <= behind.len()
                     && particles.iter().zip(behind).all(|(a, b)| a == b)
+                    // "should be put on the plate": nothing is switched on.
+                    && (particles.is_empty() || !behind.get(particles.len()).is_some_and(|w| is_determiner(w)))
                     && changes(verb)
                     && self.objects_may_fit(clause, verb)
             })

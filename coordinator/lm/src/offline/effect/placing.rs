@@ -1,8 +1,9 @@
 //! Verbs that put things somewhere: which of the places is the goal, and which only say where things were.
 
-use super::super::lexicon::{Act, Verb};
+use super::super::lexicon::{Act, Settings, Verb};
 use super::super::mention::Spoken;
 use super::super::phrase::is_one_of;
+use super::super::scene::is_in_state;
 use super::super::syntax::{Clause, Head, Link, Phrase, Place, Relation};
 use super::{Change, Interpreter};
 
@@ -269,6 +270,7 @@ impl<'a> Interpreter<'_, 'a> {
             }
         }
         self.add_asked(&places);
+        self.switch_on_what_is_lit(&goal.phrase, &places);
         // "serve the potato hot on the plate"
         for &entity in objects.iter().filter(|_| !clause.complement.is_empty()) {
             let states = self.discourse.possible_states(entity, clause.complement.clone());
@@ -392,7 +394,24 @@ impl<'a> Interpreter<'_, 'a> {
         for &entity in &objects {
             self.put_in(entity, place);
         }
-        Spoken { objects, places: vec![place], placed: true, ..Spoken::default() }
+        Spoken { objects, places: vec![place], placed: true, reached: mentioned }
+    }
+
+    /// "on a lit burner": where none is lit now, it is to be lit.
+    fn switch_on_what_is_lit(&mut self, phrase: &Phrase, places: &[usize]) {
+        let on = Settings::from([("isToggled".to_owned(), crate::offline::yes())]);
+        if phrase.selects.get("isToggled") != on.get("isToggled") {
+            return;
+        }
+        for &place in places {
+            let switch = self.switch_of(place, &on);
+            let kind = self.discourse.entities[switch].kind().to_owned();
+            let objects = self.discourse.scene.of_kind(&kind);
+            let lit = objects.iter().any(|object| is_in_state(object, &on));
+            if !lit && self.discourse.scene.affords(&kind, "toggleable") {
+                self.add_states(switch, &on);
+            }
+        }
     }
 
     /// Where things of a type are kept, other than where it comes from.

@@ -240,7 +240,14 @@ impl Discourse<'_> {
             } else {
                 &[]
             };
-            for group in [spoken.objects.as_slice(), &spoken.places, reached] {
+            // "put the fork by the plate and the egg on it": on the plate, whatever both stand on.
+            let unsaid = spoken.places.iter().all(|&place| self.entities[place].noun.is_empty());
+            let [second, third] = if unsaid && spoken.placed && wants == Some("receptacle") {
+                [reached, spoken.places.as_slice()]
+            } else {
+                [spoken.places.as_slice(), reached]
+            };
+            for group in [spoken.objects.as_slice(), second, third] {
                 if fits(self, group) {
                     return group.to_vec();
                 }

@@ -62,6 +62,7 @@ impl Rewriting<'_> {
                 && index > 0
                 && self.noun_before(index).is_some()
                 && (self.starts(index + 1, &["to", "be"])
+                    || self.at(index + 1) == "a" && self.is_base_verb(index + 2)
                     || self.at(index + 1).ends_with("ing")
                         && !self.lexicon.verbs(self.at(index + 1)).is_empty())
             {

@@ -31,6 +31,17 @@ impl Rewriting<'_> {
                 // "the cup is to be washed, the plate put on the table"
                 self.say(index, index, &["should", "be"]);
                 index += 2;
+            } else if length > 0
+                && first < index - length
+                && (first == 0 || [",", ".", "and", "then", "afterwards"].contains(&before))
+                && ["is", "are"].contains(&self.at(index))
+                && ["put", "placed", "served", "brought", "moved"].contains(&self.at(index + 1))
+                && self.is_place(index + 2)
+                && !["if", "when", "once", "after", "while"].contains(&self.at(start))
+            {
+                // "afterwards the egg is served on the plate": told as it shall be.
+                self.say(index, index + 1, &["should", "be"]);
+                index += 2;
             } else if (length > 0 && before == "and" || slices)
                 && ["has", "have"].contains(&self.at(index))
                 && self.at(index + 1) == "been"
@@ -67,12 +78,12 @@ impl Rewriting<'_> {
                 && self.is_order(index + 2)
             {
                 self.say(index, index + 2, &["then"]);
-            } else if (index == 0 || self.at(index - 1) == ".")
+            } else if (index == 0 || self.at(index - 1) == "." || self.tokens[index - 1].typed == ":")
                 && ["into", "onto"].contains(&self.at(index))
                 && is_determiner(self.at(index + 1))
                 && let Some(with) = (index + 3..index + 6).find(|&at| self.at(at) == "with")
                 && self.noun_before(with).is_some()
-                && is_determiner(self.at(with + 1))
+                && (is_determiner(self.at(with + 1)) || ["it", "them"].contains(&self.at(with + 1)))
             {
                 let end = self.next_mark(with, &[",", "."]);
                 let mut order = vec!["put".to_owned()];

@@ -298,9 +298,15 @@ impl Rewriting<'_> {
             let holds = gets
                 || ["contain", "contains", "hold", "holds"].contains(&self.at(index + shall))
                     && (is_determiner(self.at(index + shall + 1)) || shall == 1);
-            let vessel = self.noun_before(index).map_or(0, |noun| noun.len());
-            let first = index - vessel;
-            let (true, true) = (holds && vessel > 0, first > 0 && is_determiner(self.at(first - 1))) else {
+            let told_apart = ["other", "former", "latter"].contains(&self.at(index - 1)) && gets;
+            let vessel = self.noun_before(index).map_or(usize::from(told_apart), |noun| noun.len());
+            let mut first = index - vessel;
+            // "the washed bowl holds …"
+            while vessel > 0 && first > 1 && self.lexicon.adjective(&[self.at(first - 1)]).is_some() {
+                first -= 1;
+            }
+            let named = first > 0 && (is_determiner(self.at(first - 1)) || self.at(first - 1) == "one");
+            let (true, true) = (holds && vessel > 0, named) else {
                 index += 1;
                 continue;
             };
@@ -330,7 +336,7 @@ impl Rewriting<'_> {
             || (at + 1..end).any(|at| {
                 SHALL.contains(&self.at(at))
                     || is_going(self.at(at))
-                    || ["contains", "holds", "wants"].contains(&self.at(at))
+                    || ["contains", "holds", "wants", "gets", "receives"].contains(&self.at(at))
             })
     }
 

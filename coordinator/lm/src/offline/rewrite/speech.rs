@@ -5,7 +5,11 @@ use super::{LONGEST_ASIDE, Rewriting, SHALL};
 use crate::offline::syntax::{is_determiner, preposition};
 
 /// Said of what comes before, and of no consequence.
-const EMPTY: [&[&str]; 28] = [
+const EMPTY: [&[&str]; 32] = [
+    &["within", "reach"],
+    &["within", "easy", "reach"],
+    &["in", "that", "order"],
+    &["in", "this", "order"],
     &["upside", "down"],
     &["while", "youre", "there"],
     &["while", "you", "are", "there"],

@@ -68,13 +68,15 @@ impl Rewriting<'_> {
     /// "put the following in the box: the cup and the mug", "stack these on the table - cups, plates -": the things
     /// themselves.
     pub(super) fn announced_lists(&mut self) {
-        let mut index = 1;
+        let mut index = 0;
         while index < self.tokens.len() {
             let length = match (self.at(index), self.at(index + 1), self.at(index + 2)) {
                 ("the", "following", "things" | "items" | "objects") => 3,
                 (number, "things" | "items" | "objects", _)
                     if (preposition(&[self.at(index + 2)]).is_some_and(|_| self.at(index + 2) != "to")
-                        || self.is_opening(index + 2))
+                        || self.is_opening(index + 2)
+                        || self.at(index + 2) == "," && is_determiner(self.at(index + 3))
+                        || is_going(self.at(index + 2)))
                         && (["several", "some", "few", "these"].contains(&number)
                             || crate::offline::inflect::number(number).is_some()) =>
                 {
@@ -88,6 +90,12 @@ impl Rewriting<'_> {
                 }
                 _ => 0,
             };
+            let comma = length == 2 && self.at(index + 2) == "," && !self.is_opening(index + 2);
+            if comma {
+                // "two things, the cup and the mug"
+                self.say(index, index + 3, &[]);
+                continue;
+            }
             let opens = (index..self.tokens.len().min(index + LONGEST_ASIDE + 4))
                 .find(|&at| self.is_opening(at))
                 .filter(|_| length > 0);
@@ -156,7 +164,8 @@ impl Rewriting<'_> {
         };
         let first = (0..self.tokens.len()).find(|&at| stands(self, at, "first"));
         let Some(first) = first else { return };
-        if let Some(second) = (first..self.tokens.len()).find(|&at| stands(self, at, "second")) {
+        let second = |at: &usize| ["second", "last", "other"].iter().any(|word| stands(self, *at, word));
+        if let Some(second) = (first + 2..self.tokens.len()).find(second) {
             self.say(first + 1, first + 2, &["former"]);
             self.say(second + 1, second + 2, &["latter"]);
         }
@@ -243,7 +252,13 @@ impl Rewriting<'_> {
                 (index + 2..end).find(|&at| ["in", "on", "inside", "onto", "into"].contains(&self.at(at)));
             let named =
                 place.is_some_and(|at| is_determiner(self.at(at + 1)) && self.noun_before(at).is_some());
-            if opens && named && self.is_mark(end) && self.noun_before(end).is_some() {
+            // "with the remote beside it"
+            let beside = (index + 2..end).find(|&at| ["beside", "near", "under"].contains(&self.at(at)));
+            let beside_it = beside.is_some_and(|at| {
+                ["it", "them"].contains(&self.at(at + 1)) && at + 2 == end && self.noun_before(at).is_some()
+            });
+            let told = named && self.noun_before(end).is_some() || beside_it;
+            if opens && told && self.is_mark(end) {
                 self.say(index, index + 1, &["and", "put"]);
             }
             index += 1;
