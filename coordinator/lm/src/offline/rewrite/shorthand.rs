@@ -200,8 +200,8 @@ impl Rewriting<'_> {
             if let (Some(length), false) = (self.one_of(index, &DUTIES), person) {
                 let also = usize::from(["also", "both", "all"].contains(&self.at(index + length)));
                 self.say(index, index + length + also, &["should"]);
-                // "should finish on the table": be there in the end.
             }
+            // "should finish on the table": be there in the end.
             let ends = ["finish", "end", "finishes", "ends", "wind", "winds"].contains(&self.at(index));
             let up = usize::from(self.at(index + 1) == "up");
             let so = |at: usize| {
@@ -229,7 +229,7 @@ impl Rewriting<'_> {
             let noun = self.noun_before(index).map_or(0, |noun| noun.len());
             let one = index.wrapping_sub(noun + 1);
             let each = self.at(index) == "each" && noun > 0 && ["a", "one", "an"].contains(&self.at(one));
-            if each && self.is_mark(index + 1) | ["and", "then"].contains(&self.at(index + 1)) {
+            if each && (self.is_mark(index + 1) || ["and", "then"].contains(&self.at(index + 1))) {
                 let start = self.clause_start(one);
                 let goes = (start..one).find(|&at| is_going(self.at(at)));
                 self.say(index, index + 1, &[]);
