@@ -203,9 +203,20 @@ impl<'a> LandmarkCut<'a> {
         self.full_cost.iter_mut().zip(costs).for_each(|(own, cost)| *own = cost);
     }
 
-    /// The dearest goal: what supports reaching all of them.
+    /// The dearest goal: what supports reaching all of them. Of several, one that no operator without cost makes: its
+    /// zone is itself alone, so its cut has only its own makers and leaves those of other goals to theirs.
     fn dearest_goal(&self) -> Option<FactId> {
-        self.task.goal.iter().copied().max_by_key(|fact| self.wave.fact_cost[fact.index()])
+        let cost = |fact: &FactId| self.wave.fact_cost[fact.index()];
+        let goals = || self.task.goal.iter().copied();
+        let dearest = goals().map(|fact| cost(&fact)).max()?;
+        let alone = |fact: &FactId| {
+            self.makers.row(fact.index()).iter().all(|&id| {
+                let node = self.wave.nodes[id as usize];
+                self.cost[node.operator as usize] > 0 || node.missing > 0
+            })
+        };
+        let equal = || goals().filter(|fact| cost(fact) == dearest);
+        equal().find(alone).or_else(|| equal().last())
     }
 
     /// Marks what leads to `goal` without cost.
