@@ -216,7 +216,7 @@ impl<'a> LandmarkCut<'a> {
             })
         };
         let equal = || goals().filter(|fact| cost(fact) == dearest);
-        equal().find(alone).or_else(|| equal().last())
+        equal().find(alone).or_else(|| equal().next_back())
     }
 
     /// Marks what leads to `goal` without cost.
