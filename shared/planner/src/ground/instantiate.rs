@@ -60,8 +60,8 @@ struct Builder<'a> {
     ground: Ground,
     ticks: Ticks,
     limits: &'a GroundLimits<'a>,
-    /// Arguments of [`crate::lifted::Applied`].
-    projection: Vec<u32>,
+    /// Work space: arguments of an [`Applied`].
+    args: Vec<u32>,
     /// How many effects were copied: instances that no rule counts.
     copies: usize,
 }
@@ -105,7 +105,7 @@ impl<'a> Builder<'a> {
             ground,
             ticks: Ticks::default(),
             limits,
-            projection: Vec::new(),
+            args: Vec::new(),
             copies: 0,
         }
     }
@@ -256,7 +256,7 @@ impl<'a> Builder<'a> {
             }
             let effects = &effects[action as usize];
             let conditional = self.conditional_effects(schema, values, effects, &mut plain)?;
-            let numeric = self.numeric_effects(schema, values, effects, &binding);
+            let numeric = self.numeric_effects(schema, values, effects, &binding)?;
             // Where an action both deletes and adds an atom, the add wins; it is the smaller literal.
             plain.sort_unstable();
             plain.dedup_by_key(|lit| lit.atom());
@@ -278,9 +278,8 @@ impl<'a> Builder<'a> {
 
     /// The row of the reached action that some of its effects begin with.
     fn row(&mut self, applied: &Applied, values: &[u32]) -> u32 {
-        self.projection.clear();
-        self.projection.extend(applied.params.iter().map(|&param| values[param as usize]));
-        self.world.reached.relations[applied.predicate as usize].find(&self.projection).unwrap_or(UNBOUND)
+        applied.args(values, &mut self.args);
+        self.world.reached.relations[applied.predicate as usize].find(&self.args).unwrap_or(UNBOUND)
     }
 
     /// Copies the effects of one reached action; those whose condition always holds join the plain ones.
@@ -295,8 +294,7 @@ impl<'a> Builder<'a> {
         for (applied, effects) in schema.applied.iter().zip(effects).filter(|(_, e)| !e.facts.is_empty()) {
             let row = self.row(applied, values);
             for effect in of_row(&effects.facts, row) {
-                self.ticks.tick(self.limits)?;
-                self.copies += 1;
+                self.count_copy()?;
                 if effect.condition.len == 0 {
                     plain.push(effect.effect);
                 } else {
@@ -305,11 +303,18 @@ impl<'a> Builder<'a> {
                 }
             }
         }
+        Ok(Stretch { start, len: self.ground.conditional.len() as u32 - start })
+    }
+
+    /// Counts a copy of an effect like an instance of a rule.
+    fn count_copy(&mut self) -> Result<(), GroundError> {
+        self.ticks.tick(self.limits)?;
+        self.copies += 1;
         if self.copies > self.limits.instances {
             let limit = self.limits.instances as u64;
             return Err(GroundError::TooLarge { what: "conditional and quantified effects", limit });
         }
-        Ok(Stretch { start, len: self.ground.conditional.len() as u32 - start })
+        Ok(())
     }
 
     /// A copy of a condition: it is shortened for each effect apart.
@@ -326,7 +331,7 @@ impl<'a> Builder<'a> {
         values: &[u32],
         conditional: &[Conditional],
         binding: &[u32],
-    ) -> Stretch {
+    ) -> Result<Stretch, GroundError> {
         let start = self.ground.numbers.effects.len() as u32;
         for change in &schema.effects {
             let effect = self.number(change, Stretch::default(), binding);
@@ -337,11 +342,12 @@ impl<'a> Builder<'a> {
         {
             let row = self.row(applied, values);
             for effect in of_row(&effects.numbers, row) {
+                self.count_copy()?;
                 let condition = self.own(effect.condition);
                 self.ground.numbers.effects.push(GroundNumericEffect { condition, ..effect.clone() });
             }
         }
-        Stretch { start, len: self.ground.numbers.effects.len() as u32 - start }
+        Ok(Stretch { start, len: self.ground.numbers.effects.len() as u32 - start })
     }
 
     fn axioms(&mut self, index: usize, head: &LiftedAtom) -> Result<(), GroundError> {

@@ -264,7 +264,7 @@ impl<'a> Fixpoint<'a> {
         let lifted = self.lifted;
         let rule = &lifted.rules[index];
         let width = rule.body.bound.len();
-        let mut projection = Vec::new();
+        let mut args = Vec::new();
         for instance in 0..count {
             let values = &found[instance * width..(instance + 1) * width];
             let value = |term: &Term| match term {
@@ -281,9 +281,8 @@ impl<'a> Fixpoint<'a> {
                 Head::Act { action } => {
                     let schema = &lifted.schemas[*action as usize];
                     for applied in &schema.applied {
-                        projection.clear();
-                        projection.extend(applied.params.iter().map(|&param| values[param as usize]));
-                        self.add(applied.predicate, &projection);
+                        applied.args(values, &mut args);
+                        self.add(applied.predicate, &args);
                     }
                     for change in &schema.effects {
                         if let Change::Add(atom) = change {

@@ -138,6 +138,14 @@ pub(crate) struct Applied {
     pub params: Vec<u32>,
 }
 
+impl Applied {
+    /// Its arguments where the action's are `values`, written to `args`.
+    pub fn args(&self, values: &[u32], args: &mut Vec<u32>) {
+        args.clear();
+        args.extend(self.params.iter().map(|&param| values[param as usize]));
+    }
+}
+
 /// A conditional or quantified effect; its conditions are rules.
 #[derive(Clone, Debug)]
 pub(crate) struct ConditionalChange {

@@ -304,20 +304,24 @@ fn collect_variables(formula: &Formula, used: &mut Vec<u32>, quantified: &mut Ve
 pub(super) fn change_variables(change: &Change) -> Vec<u32> {
     let mut used = Vec::new();
     let (Change::Add(of) | Change::Delete(of) | Change::Numeric(_, of, _)) = change;
-    expression_variables(&Expr::Value(of.clone()), &mut used);
+    atom_variables(of, &mut used);
     if let Change::Numeric(_, _, value) = change {
         expression_variables(value, &mut used);
     }
     used
 }
 
+fn atom_variables(atom: &LiftedAtom, used: &mut Vec<u32>) {
+    used.extend(atom.args.iter().filter_map(|arg| match arg {
+        Term::Variable(slot) => Some(*slot),
+        Term::Object(_) => None,
+    }));
+}
+
 fn expression_variables(expression: &Expr, used: &mut Vec<u32>) {
     match expression {
         Expr::Number(_) => {}
-        Expr::Value(of) => used.extend(of.args.iter().filter_map(|arg| match arg {
-            Term::Variable(slot) => Some(*slot),
-            Term::Object(_) => None,
-        })),
+        Expr::Value(of) => atom_variables(of, used),
         Expr::Operation(_, parts) => parts.iter().for_each(|part| expression_variables(part, used)),
     }
 }
