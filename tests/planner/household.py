@@ -140,8 +140,9 @@ def main():
             report(name, "all", list(own.values()), [], 0)
             if options.warm:
                 warm = os.path.join(os.path.dirname(lamma), "examples/warm")
-                print(subprocess.run([warm, str(options.warm), domain, *problems.values()], capture_output=True, text=True,
-                                     check=True).stdout, flush=True)
+                told = subprocess.run([warm, str(options.warm), domain, *problems.values()], capture_output=True,
+                                      text=True, check=True)
+                print(told.stdout, flush=True)
 
 
 def write_tasks(folder, name, world, options):

@@ -17,6 +17,7 @@ mod relations;
 mod saying;
 mod shorthand;
 mod speech;
+mod timing;
 mod topic;
 mod whereabouts;
 mod wishing;

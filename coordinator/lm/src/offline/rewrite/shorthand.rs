@@ -97,14 +97,14 @@ impl Rewriting<'_> {
                 && let Some(there) = there.filter(|&there| self.noun_before(there).is_some())
             {
                 self.say(there, there + 2, &[]);
-                let all: &[&str] = if self.noun_is_plural(there) { &["all", "the"] } else { &["the"] };
+                let all = self.the_or_all(there);
                 self.say(index, index + 1, all);
             } else if ["whatever", "any", "what"].contains(&self.at(index))
                 && let Some(lie) = (index + 2..index + 5).find(|&at| self.lies_about(at) > 0)
                 && self.noun_before(lie).is_some()
             {
                 self.say(lie, lie + self.lies_about(lie), &[]);
-                let all: &[&str] = if self.noun_is_plural(lie) { &["all", "the"] } else { &["the"] };
+                let all = self.the_or_all(lie);
                 self.say(index, index + 1, all);
             } else if self.starts(index, &["the", "whole", "lot"]) && self.at(index + 3) != "of" {
                 self.say(index, index + 3, &["all", "of", "them"]);
@@ -166,6 +166,11 @@ impl Rewriting<'_> {
             }
             index += 1;
         }
+    }
+
+    /// What to put before the noun that ends before a place where any of it is meant: "any cups" are all the cups.
+    fn the_or_all(&self, end: usize) -> &'static [&'static str] {
+        if self.noun_is_plural(end) { &["all", "the"] } else { &["the"] }
     }
 
     /// Whether the noun that ends before a place is a plural.
@@ -298,11 +303,8 @@ impl Rewriting<'_> {
                 pronoun.filter(|_| seen > 0 && plain && order && end - any <= LONGEST_ASIDE)
             {
                 let several = usize::from(["any", "a", "an", "some"].contains(&self.at(any)));
-                let mut things =
-                    vec![if several > 0 && self.noun_is_plural(about) { "all" } else { "the" }.to_owned()];
-                if things[0] == "all" {
-                    things.push("the".to_owned());
-                }
+                let all = if several > 0 { self.the_or_all(about) } else { &["the"] };
+                let mut things: Vec<String> = all.iter().map(|&word| word.to_owned()).collect();
                 things.extend(self.words(any + several..about));
                 self.say_all(pronoun, pronoun + 1, &things);
                 self.say(index, end + 1, &[]);
