@@ -1,5 +1,6 @@
 //! Shows what the embedded default makes of sentences: `read FOLDER FLOORPLAN SENTENCE...`, with the facts of
-//! `FOLDER/ai2thor` for the scene; `-` reads the sentences from standard input, one a line.
+//! `FOLDER/ai2thor` for the scene, or our own scene of that name if the folder is `own`; `-` reads the sentences from
+//! standard input, one a line.
 
 use std::collections::BTreeMap;
 use std::io::BufRead;
@@ -16,7 +17,12 @@ fn main() -> Result<(), Failure> {
     let [folder, plan, sentences @ ..] = arguments.as_slice() else {
         return Err("usage: read FOLDER FLOORPLAN SENTENCE...".into());
     };
-    let objects = objects(Path::new(folder), plan)?;
+    let objects = if folder == "own" {
+        let world = lamma_domains::world::setup(plan, &[], None, 0)?;
+        lamma_domains::view::views(&world, world.facts())
+    } else {
+        objects(Path::new(folder), plan)?
+    };
     let offline = match std::env::var_os("LEXICON") {
         Some(folder) => Offline::from_folder(Path::new(&folder))?,
         None => Offline::new()?,

@@ -34,6 +34,8 @@ pub struct Parser<'a> {
     pub(super) wants_place: bool,
     /// Whether the verb at hand switches things on or off.
     pub(super) switches: bool,
+    /// Whether the verb at hand does something to things, so that what should be otherwise is told apart.
+    pub(super) acts: bool,
     /// Whether the clause at hand is negated: then "or" forbids both.
     pub(super) negated: bool,
 }
@@ -53,6 +55,7 @@ impl<'a> Parser<'a> {
             counted: None,
             wants_place: false,
             switches: true,
+            acts: false,
             negated: false,
         }
     }
@@ -175,12 +178,17 @@ impl<'a> Parser<'a> {
         }
         self.wants_place = clause.verbs.iter().any(|verb| verb.act == Act::Place);
         self.negated = clause.negated;
+        // "sliced bread and sliced potato should be in the pan" orders nothing by its first word.
+        let told =
+            start < self.position && self.words[start] == clause.verb_text && self.is_past(&clause.verb_text);
+        self.acts =
+            !told && !clause.verbs.is_empty() && clause.verbs.iter().all(|verb| verb.act != Act::Keep);
         let first = clause.verb_text.split(' ').next().unwrap_or_default();
         self.switches = clause.verbs.is_empty()
             || clause.verbs.iter().any(|verb| verb.act == Act::Keep)
             || self.lexicon.verbs(first).iter().any(|(_, _, v)| v.wants.as_deref() == Some("toggleable"));
         self.arguments(&mut clause, start);
-        (self.wants_place, self.switches) = (false, true);
+        (self.wants_place, self.switches, self.acts) = (false, true, false);
         if let Some((_, word)) = doing {
             clause.objects.retain(|phrase| phrase.head != Head::Unknown(word.clone()));
         }
@@ -255,6 +263,12 @@ impl<'a> Parser<'a> {
             if floating && self.word_at(1).is_some_and(|next| preposition(&[next]).is_some() && next != "of")
             {
                 self.position += 1;
+                continue;
+            }
+            // "slice the bread and the tomato, both into the bowl"
+            let both = word == "," && matches!(self.word_at(1), Some("both" | "all"));
+            if both && self.is_complete(clause) && self.ahead(2).goal_follows() {
+                self.position += 2;
                 continue;
             }
             if matches!(word, "," | "and" | "or") {
@@ -386,6 +400,7 @@ impl<'a> Parser<'a> {
             counted: self.counted.clone(),
             wants_place: self.wants_place,
             switches: self.switches,
+            acts: false,
             negated: self.negated,
         }
     }

@@ -143,7 +143,12 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         for word in clause.unknown.iter().skip(usize::from(clause.verbs.is_empty())) {
             self.discourse.assume(format!("passed over \"{word}\""), 0.85);
         }
-        spoken.reached.extend(self.named_besides(clause));
+        let kind_of = |e: usize| self.discourse.entities[e].kind().to_owned();
+        let known: Vec<String> = spoken.reached.iter().map(|&e| kind_of(e)).collect();
+        let besides = self.named_besides(clause);
+        let fresh =
+            besides.into_iter().filter(|&e| !known.contains(&self.discourse.entities[e].kind().to_owned()));
+        spoken.reached.extend(fresh);
         self.discourse.spoken.push(spoken);
     }
 
@@ -385,10 +390,11 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         } else if clause.complement.is_empty() {
             self.discourse.problem(format!("I do not know what is to hold in \"{}\"", clause.text), 0.3);
         }
-        let switched: Vec<usize> =
-            objects.iter().map(|&entity| self.switch_of(entity, &clause.complement)).collect();
+        let told = objects.first().and_then(|&entity| self.switched_for(entity, &clause.complement));
+        let told = told.unwrap_or_else(|| clause.complement.clone());
+        let switched: Vec<usize> = objects.iter().map(|&entity| self.switch_of(entity, &told)).collect();
         for &entity in &switched {
-            let states = self.discourse.possible_states(entity, clause.complement.clone());
+            let states = self.discourse.possible_states(entity, told.clone());
             self.add_states(entity, &states);
             // "the slices" may be spoken of later.
             let sliced = states.into_iter().filter(|(property, _)| property == "isSliced");

@@ -13,7 +13,10 @@ pub fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
     let plain =
         |phrase: &syntax::Phrase| matches!(phrase.head, syntax::Head::Noun(_) | syntax::Head::Named(_));
     let places = clause.verbs.iter().any(|verb| verb.act == Act::Place)
-        && clause.objects.iter().any(plain)
+        && clause
+            .objects
+            .iter()
+            .any(|phrase| plain(phrase) || matches!(phrase.head, syntax::Head::Pronoun { .. }))
         && clause.places.iter().any(|place| matches!(place.phrase.head, syntax::Head::Noun(_)));
     let said: Vec<&str> = clause.words.iter().map(String::as_str).collect();
     let idiom = (0..said.len()).any(|at| lexicon.longest_small("idioms", &said[at..]).is_some());
@@ -66,6 +69,11 @@ pub fn says_where(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
             && clause.objects.iter().all(carried)
             && clause.places.iter().any(goal)
         || wished && liquid && clause.places.iter().any(fills)
+        || wished
+            && clause.verb_text == "have"
+            && clause.objects.iter().all(carried)
+            && !clause.objects.is_empty()
+            && clause.places.iter().any(goal)
         || moves
             && (clause.objects.iter().any(|phrase| is_here(phrase, "pickupable"))
                 && clause.places.iter().any(goal)

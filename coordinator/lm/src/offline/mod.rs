@@ -53,6 +53,9 @@ const THRESHOLD: f64 = 0.5;
 /// A strong situation that explains so many words stands for the whole sentence, not for a clause of it.
 const SURE_WHOLE: usize = 3;
 
+/// What is said in so many clauses, one of which is understood, is no single situation.
+const MANY_CLAUSES: usize = 3;
+
 /// A reading this sure is not replaced by what a situation would do.
 const SURE: f64 = 0.8;
 
@@ -154,6 +157,8 @@ struct Reading {
     only_goes: bool,
     /// Whether it says what to do to things of the scene, so that no situation stands for it.
     concrete: bool,
+    /// How many clauses it was read from.
+    clauses: usize,
 }
 
 impl Reading {
@@ -168,6 +173,7 @@ impl Reading {
             others: Vec::new(),
             only_goes: false,
             concrete: false,
+            clauses: 0,
         }
     }
 
@@ -250,6 +256,7 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         }
     } else if (!absent || explained >= 2)
         && !reading.concrete
+        && (reading.clauses < MANY_CLAUSES || reading.decomposition.subtasks.is_empty())
         && (reading.decomposition.subtasks.is_empty() || reading.decomposition.confidence < THRESHOLD)
     {
         let whole = as_situation(&words, instruction, lexicon, scene);
@@ -442,5 +449,6 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
         others: Vec::new(),
         only_goes: !clauses.is_empty() && clauses.iter().all(only_goes),
         concrete: false,
+        clauses: clauses.len(),
     }
 }

@@ -7,8 +7,12 @@ use super::text::Token;
 
 mod arrangement;
 mod asides;
+mod becoming;
+mod conditions;
+mod exceptions;
 mod fragment;
 mod hurry;
+mod identified;
 mod looking;
 mod members;
 mod pairs;
@@ -17,6 +21,7 @@ mod relations;
 mod saying;
 mod shorthand;
 mod speech;
+mod states;
 mod timing;
 mod topic;
 mod whereabouts;
@@ -36,6 +41,9 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
     text.duties();
+    text.whose_slices();
+    text.known_by_what_they_do();
+    text.becoming();
     text.corrections();
     text.people();
     text.doers();
@@ -77,6 +85,10 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.needs();
     text.ready();
     text.bare_lists();
+    text.no_lights();
+    text.left_so();
+    text.laden_with();
+    text.states_as_notes();
     text.states_said_last();
     text.announced_lists();
     text.listed_in_brackets();
@@ -107,6 +119,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.small_words();
     text.relatives();
     text.exceptions();
+    text.exceptions_said_last();
     text.denials();
     text.which();
     text.reasons();
@@ -264,47 +277,6 @@ impl Rewriting<'_> {
                 self.say(index, index + 3, &["then"]);
             }
             index += 1;
-        }
-    }
-
-    /// "the book I am reading", "the food that has to stay cold": which one is meant is known without it.
-    fn relatives(&mut self) {
-        let mut index = 1;
-        while index < self.tokens.len() {
-            let known = self.noun_before(index).is_some();
-            let person = ["i", "we", "you", "he", "she", "they"].contains(&self.at(index));
-            let being = ["am", "are", "is", "was", "were"].contains(&self.at(index + 1));
-            let doing =
-                |at: usize| self.at(at).ends_with("ing") && !self.lexicon.verbs(self.at(at)).is_empty();
-            let must =
-                ["has", "have", "needs", "need"].contains(&self.at(index + 1)) && self.at(index + 2) == "to";
-            let stay = ["stay", "be", "keep"].contains(&self.at(index + 3))
-                && self.lexicon.adjective(&[self.at(index + 4)]).is_some();
-            if known && person && being && doing(index + 2) {
-                self.say(index, index + 3, &[]);
-            } else if known && ["im", "were"].contains(&self.at(index)) && doing(index + 1) {
-                self.say(index, index + 2, &[]);
-            } else if known && ["that", "which"].contains(&self.at(index)) && must && stay {
-                self.say(index, index + 5, &[]);
-            }
-            index += 1;
-        }
-    }
-
-    /// "apart from the fork", "everything but the fork"
-    fn exceptions(&mut self) {
-        for index in 0..self.tokens.len() {
-            if ["apart", "aside"].contains(&self.at(index)) && self.at(index + 1) == "from" {
-                self.say(index, index + 2, &["except"]);
-            } else if self.at(index) == "but" && is_determiner(self.at(index + 1)) {
-                let before = (index.saturating_sub(LONGEST_ASIDE)..index).rev();
-                let all = before
-                    .take_while(|&at| !self.is_mark(at))
-                    .any(|at| ["everything", "all", "every", "anything"].contains(&self.at(at)));
-                if all {
-                    self.say(index, index + 1, &["except"]);
-                }
-            }
         }
     }
 

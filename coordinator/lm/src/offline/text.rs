@@ -245,7 +245,10 @@ pub fn without_asides(words: Vec<String>, lexicon: &Lexicon) -> Vec<String> {
     let mut at = 0;
     while at < words.len() {
         if aside(at) {
-            at += 1 + words[at + 1..].iter().position(|word| word == ",").unwrap_or(0) + 1;
+            let closes = at + 1 + words[at + 1..].iter().position(|word| word == ",").unwrap_or(0);
+            // "the cup, please, the bowl and …": the list goes on.
+            let goes_on = words.get(closes + 1).is_some_and(|word| super::syntax::is_determiner(word));
+            at = if goes_on { closes } else { closes + 1 };
         } else {
             kept.push(words[at].clone());
             at += 1;

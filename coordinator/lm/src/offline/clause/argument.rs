@@ -293,7 +293,7 @@ impl<'a> Parser<'a> {
         true
     }
 
-    pub(super) fn place_length(&self) -> Option<usize> {
+    pub(in crate::offline) fn place_length(&self) -> Option<usize> {
         preposition(&self.rest()).map(|(_, length)| length)
     }
 

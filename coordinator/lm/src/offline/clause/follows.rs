@@ -33,12 +33,14 @@ impl<'a> Parser<'a> {
         const SHALL: [&str; 5] = ["should", "must", "shall", "needs", "need"];
         let said = self.words.get(start..self.position).unwrap_or_default();
         let wished = said.iter().any(|word| SHALL.contains(&word.as_str()));
-        let told = clause.verbs.is_empty() && !clause.complement.is_empty();
+        let placed =
+            clause.unknown.is_empty() && clause.places.iter().any(|place| place.relation == Relation::In);
+        let told = clause.verbs.is_empty() && (!clause.complement.is_empty() || placed);
         let mut joined = self.ahead(0);
         joined.skip_joins();
         let ahead = self.ahead_after_things();
         let things = ahead.position > joined.position;
-        let state = ahead.state_told();
+        let state = ahead.state_told() || told && ahead.switched_follows();
         things && (wished && self.is_complete(clause) && state || told && (state || ahead.goal_follows()))
     }
 

@@ -140,14 +140,17 @@ impl Parser<'_> {
         if poured {
             return true;
         }
+        // "with the stove left cold"
+        ahead.position += usize::from(matches!(ahead.peek(), Some("left" | "kept" | "still")));
         let rest = ahead.rest();
         let told = (1..=3.min(rest.len())).rev().find_map(|n| Some((self.lexicon.adjective(&rest[..n])?, n)));
         let (state, length) = told.map_or((None, 1), |(state, length)| (Some(state), length));
         let ends =
             ahead.word_at(length).is_none_or(|word| [",", ".", "and", "at", "afterwards"].contains(&word));
         let told = ["isOpen", "isToggled", "isFilledWithLiquid"];
+        let definite = things.iter().all(|phrase| phrase.definite);
         (ends || ahead.peek() == Some("full"))
-            && state.is_some_and(|state| state.set.keys().any(|p| told.contains(&p.as_str())))
+            && state.is_some_and(|state| definite || state.set.keys().any(|p| told.contains(&p.as_str())))
     }
 
     /// "(with water) in the cup", but not "(the kettle with water) on the counter".

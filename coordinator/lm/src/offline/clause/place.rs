@@ -175,7 +175,11 @@ impl<'a> Parser<'a> {
             }
             let goes_elsewhere = preposition(&behind.rest())
                 .is_some_and(|(other, _)| other != Relation::From && other != Relation::With);
+            // "sliced, on the counter, the mug filled with coffee"
+            let filled =
+                !clause.complement.is_empty() && phrase.with.iter().any(|with| with.liquid().is_some());
             let another_pair = self.switched_follows()
+                || filled
                 || told
                 || self.state_told() && self.is_openable(&phrase)
                 || (!clause.complement.is_empty() || clause.verbs.is_empty()) && self.state_told()

@@ -26,6 +26,12 @@ impl<'a> Parser<'a> {
         Some((form, verbs, length + 1))
     }
 
+    /// Whether a word can only say what was done.
+    pub(super) fn is_past(&self, word: &str) -> bool {
+        let forms = self.lexicon.verbs(word);
+        !forms.is_empty() && forms.iter().all(|(form, _, _)| *form == VerbForm::Past)
+    }
+
     /// "switch the light on": a verb that needs its particle, which stands behind the object.
     fn verb_apart(
         &self,
@@ -86,6 +92,10 @@ impl<'a> Parser<'a> {
         }
         if word == "that" && self.word_at(1).is_some_and(|next| is_determiner(next) && next != "one") {
             return true;
+        }
+        // "slices of tomato and slices of potato"
+        if self.lexicon.is_small("slices", &[word.trim_end_matches('s')]) && self.word_at(1) == Some("of") {
+            return false;
         }
         let rest = self.rest();
         let negation =

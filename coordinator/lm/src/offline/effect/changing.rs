@@ -3,7 +3,7 @@
 use lamma_domains::goal::PropertyValue;
 
 use super::super::lexicon::{Act, Settings, Verb};
-use super::super::mention::Spoken;
+use super::super::mention::{Spoken, Which};
 use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
 use super::{Change, Interpreter};
 
@@ -24,8 +24,9 @@ impl<'a> Interpreter<'_, 'a> {
         let objects = self.objects(clause, &at, verb.wants.as_deref());
         let mut changed = Vec::new();
         for &entity in &objects {
-            let target = self.switch_of(entity, &verb.set);
-            let states = self.discourse.adapted_states(target, verb);
+            let switched = self.switched_for(entity, &verb.set);
+            let target = self.switch_of(entity, switched.as_ref().unwrap_or(&verb.set));
+            let states = switched.unwrap_or_else(|| self.discourse.adapted_states(target, verb));
             self.add_states(target, &states);
             self.discourse.entities[target].asked.extend(states);
             changed.push(target);
@@ -45,7 +46,9 @@ impl<'a> Interpreter<'_, 'a> {
         self.put_down_tools(verb);
         self.hold_what_is_with(clause, verb);
         let places = self.places_spoken_of(&clause.places);
-        Spoken { objects: changed, places, placed: false, ..Spoken::default() }
+        // "turn on the stove and put the pan on it": not on its knob.
+        let reached = objects.into_iter().filter(|entity| !changed.contains(entity)).collect();
+        Spoken { objects: changed, places, reached, ..Spoken::default() }
     }
 
     /// What was spoken of last and holds liquids.
@@ -118,6 +121,16 @@ impl<'a> Interpreter<'_, 'a> {
         }
     }
 
+    /// What is itself a source of heat is hot while it is on: "heat up the stove", "the toaster should be cold".
+    pub(super) fn switched_for(&self, entity: usize, states: &Settings) -> Option<Settings> {
+        let (scene, kind) = (self.discourse.scene, self.discourse.entities[entity].kind());
+        let temperature = states.get("temperature").filter(|_| states.len() == 1)?;
+        let switch = self.discourse.lexicon.control(kind).unwrap_or(kind);
+        let heats = scene.affords(kind, "isHeatSource") && scene.affords(switch, "toggleable");
+        let on = *temperature == PropertyValue::Word("Hot".to_owned());
+        heats.then(|| Settings::from([("isToggled".to_owned(), PropertyValue::Flag(on))]))
+    }
+
     /// What is switched when an entity is to be on or off.
     pub(super) fn switch_of(&mut self, entity: usize, states: &Settings) -> usize {
         let kind = self.discourse.entities[entity].kind().to_owned();
@@ -164,10 +177,14 @@ impl<'a> Interpreter<'_, 'a> {
         }
         let solid =
             clause.objects.iter().any(|phrase| phrase.with.iter().any(|with| with.liquid().is_none()));
-        let objects = self.objects(&fill, &[], Some("canFillWithLiquid"));
+        let objects = match said.as_deref().filter(|_| fill.objects.is_empty()) {
+            Some(liquid) => self.vessel_for(liquid, &fill),
+            None => self.objects(&fill, &[], Some("canFillWithLiquid")),
+        };
         if said.is_none() && solid {
             return Spoken { objects, ..Spoken::default() };
         }
+        let said = said.or_else(|| self.is_by_the_coffee_machine(clause).then(|| "coffee".to_owned()));
         // "make coffee and pour it into the mug"
         let poured = clause.objects.iter().any(|phrase| matches!(phrase.head, Head::Pronoun { .. }));
         let brewed = self.facts.iter().rev().filter(|_| poured).find_map(|fact| match &fact.change {
@@ -187,6 +204,40 @@ impl<'a> Interpreter<'_, 'a> {
         let from = clause.places.iter().filter(|place| place.relation == Relation::From);
         let reached = self.places_spoken_of(&from.cloned().collect::<Vec<_>>());
         Spoken { objects, reached, ..Spoken::default() }
+    }
+
+    /// "use the coffee machine to fill the mug", "fill the mug with the coffee machine": with coffee.
+    fn is_by_the_coffee_machine(&self, clause: &Clause<'a>) -> bool {
+        let brews = |kind: &str| kind == "CoffeeMachine";
+        let said_with = clause.places.iter().any(|place| {
+            matches!(place.relation, Relation::With | Relation::From)
+                && matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.first().is_some_and(|kind| brews(kind)))
+        });
+        let entities = &self.discourse.entities;
+        let before = self.discourse.spoken.last().is_some_and(|spoken| {
+            spoken
+                .objects
+                .iter()
+                .chain(&spoken.places)
+                .chain(&spoken.reached)
+                .any(|&e| brews(entities[e].kind()))
+        });
+        said_with || before
+    }
+
+    /// "pour a coffee": into what was spoken of, else into what such a thing is drunk from.
+    fn vessel_for(&mut self, liquid: &str, fill: &Clause<'a>) -> Vec<usize> {
+        const DRUNK_FROM: [(&str, &[&str]); 3] =
+            [("coffee", &["Mug", "Cup"]), ("water", &["Cup", "Mug"]), ("wine", &["Cup", "Mug"])];
+        if self.vessel_spoken_of().is_some() {
+            return self.objects(fill, &[], Some("canFillWithLiquid"));
+        }
+        let kinds = DRUNK_FROM.iter().find(|(name, _)| *name == liquid).map_or(&[][..], |(_, kinds)| kinds);
+        let kind = kinds.iter().find(|kind| self.discourse.scene.has(kind));
+        let Some(kind) = kind else { return self.objects(fill, &[], Some("canFillWithLiquid")) };
+        self.discourse
+            .assume(format!("it is not said what the {liquid} is to be in: a {kind} is taken"), 0.8);
+        vec![self.discourse.entity(kind, Which::Any)]
     }
 
     pub(super) fn empty(&mut self, clause: &Clause<'a>) -> Spoken {

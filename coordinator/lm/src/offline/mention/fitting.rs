@@ -78,11 +78,15 @@ impl Discourse<'_> {
             && self.cooks_in_slices(self.entities[entity].kind());
         let sliced = sliced.then(|| ("isSliced".to_owned(), super::super::yes()));
         // "one roll empty, one full": no liquid.
-        let fillable = self.scene.affords(self.entities[entity].kind(), "canFillWithLiquid");
+        let kind = self.entities[entity].kind();
+        let fillable = self.scene.affords(kind, "canFillWithLiquid");
+        // "the cold tap": what is fixed is told apart by it, and neither heated nor cooled.
+        let fixed = self.scene.has(kind) && !self.scene.affords(kind, "pickupable");
         states
             .into_iter()
             .filter(|(property, _)| {
-                fillable || !["isFilledWithLiquid", "fillLiquid"].contains(&property.as_str())
+                (fillable || !["isFilledWithLiquid", "fillLiquid"].contains(&property.as_str()))
+                    && !(fixed && property == "temperature")
             })
             .chain(sliced)
             .map(|(property, value)| {

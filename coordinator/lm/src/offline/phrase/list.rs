@@ -13,7 +13,12 @@ impl Parser<'_> {
         loop {
             let start = self.position;
             let joined = self.skip_joins();
-            if !joined || self.clause_starts_here(false) || self.another_subject(depth > 0) {
+            let comma = self.words.get(start).is_some_and(|word| word == ",");
+            if !joined
+                || self.clause_starts_here(false)
+                || self.another_subject(depth > 0)
+                || depth == 0 && self.acts && self.something_should(comma)
+            {
                 self.position = start;
                 return found;
             }
@@ -33,7 +38,6 @@ impl Parser<'_> {
                     }
                 }
                 Some(mut phrase) => {
-                    let comma = self.words.get(start).is_some_and(|word| word == ",");
                     if let (true, [class]) = (comma, found.as_slice())
                         && is_one_of(&phrase, class)
                     {
@@ -64,7 +68,7 @@ impl Parser<'_> {
     /// ", each goes into the bowl", "a box with a bat, the ball goes …": something is said of what comes next.
     fn another_subject(&self, of_contents: bool) -> bool {
         // "chill the wine and the lights out"
-        if !self.switches {
+        if !self.switches || of_contents {
             let mut ahead = self.ahead(0);
             if ahead.phrase(DEEPEST).is_some() && ahead.switched_follows() {
                 return true;
@@ -80,6 +84,20 @@ impl Parser<'_> {
             && ahead.peek().is_some_and(|word| {
                 is_going(word) || ["should", "must", "need", "needs", "is", "are"].contains(&word)
             })
+    }
+
+    /// "slice the potato, and the pot should be on the stove": what comes next is not done to the pot. Behind a comma
+    /// several things may be told so.
+    fn something_should(&self, several: bool) -> bool {
+        let mut ahead = self.ahead(0);
+        if ahead.phrase(DEEPEST).is_none() {
+            return false;
+        }
+        while several && ahead.skip_joins() && ahead.phrase(DEEPEST).is_some() {}
+        ahead.peek().is_some_and(|word| {
+            ["should", "must", "shall", "needs"].contains(&word)
+                || is_going(word) && ahead.ahead(1).place_length().is_some()
+        })
     }
 
     /// Whether things are named here and then a place.

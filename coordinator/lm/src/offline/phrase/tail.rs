@@ -82,7 +82,8 @@ impl Parser<'_> {
                     self.where_it_is(phrase, depth);
                 }
                 Some("except" | "excluding" | "but")
-                    if self.peek() != Some("but") || phrase.quantity == Quantity::All =>
+                    if self.peek() != Some("but")
+                        || phrase.quantity == Quantity::All && !self.ahead(1).clause_starts_here(false) =>
                 {
                     self.position += 1;
                     if matches!(self.peek(), Some("for" | "from")) {

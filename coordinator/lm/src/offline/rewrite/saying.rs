@@ -86,16 +86,18 @@ impl Rewriting<'_> {
             } else if ["is", "are", "has", "have", "needs", "need", "ought"].contains(&word)
                 && next == "to"
                 && (resting(self.at(index + 2))
+                    || ["hold", "contain"].contains(&self.at(index + 2))
                     || word == "is" && self.at(index + 2) == "go"
                     || self.at(index + 2) == "be"
                         && (preposition(&[self.at(index + 3)]).is_some() || self.at(index + 3) == "there"))
             {
                 self.say(index, index + 2, &["should"]);
             }
+            let shall_before = (self.clause_start(index)..index).any(|at| SHALL[..3].contains(&self.at(at)));
             if self.at(index) == "and"
                 && resting(self.at(index + 1))
                 && preposition(&[self.at(index + 2)]).is_some()
-                && self.lexicon.adjective(&[self.at(index - 1)]).is_some()
+                && (shall_before || self.lexicon.adjective(&[self.at(index - 1)]).is_some())
             {
                 // "must be clean and stand on the shelf"
                 self.say(index + 1, index + 2, &["they", "should", "be"]);
@@ -210,11 +212,28 @@ impl Rewriting<'_> {
             let was = (index + 2..end.min(index + LONGEST_ASIDE))
                 .find(|&at| ["was", "is", "were", "are", "stood", "stands", "sits"].contains(&self.at(at)));
             let who = is_determiner(self.at(index + 1)) || ["it", "they"].contains(&self.at(index + 1));
+            let told = |this: &Self| {
+                let start = this.clause_start(index);
+                (start..index).any(|at| this.is_place(at)) || !this.is_order(start)
+            };
             if let Some(was) = was.filter(|_| self.at(index) == "where" && who)
                 && self.noun_before(index).is_some()
+                && told(self)
             {
                 let more = usize::from(["before", "now", "kept", "standing"].contains(&self.at(was + 1)));
                 self.say(index, was + 1 + more, &[]);
+            }
+            // "put the salt where the pepper is"
+            let is = was.filter(|&was| {
+                self.is_mark(was + 1) && ["is", "are", "stands", "sits"].contains(&self.at(was))
+            });
+            if let Some(is) = is.filter(|_| self.at(index) == "where" && is_determiner(self.at(index + 1)))
+                && self.is_order(self.clause_start(index))
+                && !(self.clause_start(index)..index).any(|at| self.is_place(at))
+                && self.noun_before(is).is_some()
+            {
+                self.say(is, is + 1, &[]);
+                self.say(index, index + 1, &["next", "to"]);
             }
             let way = match self.at(index) {
                 "down" => "closed",
@@ -311,6 +330,10 @@ impl Rewriting<'_> {
                 continue;
             };
             let things = index + shall + 1;
+            if ["water", "coffee", "wine"].contains(&self.at(things)) {
+                self.say(index, things, &["should", "be", "filled", "with"]);
+                continue;
+            }
             let end = (things..self.tokens.len())
                 .find(|&at| self.at(at) == "." || self.at(at) == "that" || self.another_verb(at))
                 .unwrap_or(self.tokens.len());
@@ -384,102 +407,6 @@ impl Rewriting<'_> {
                 let mut order: Vec<&str> = vec![".", verb.as_str(), "the"];
                 order.extend(noun.iter().map(String::as_str));
                 self.say(index - comma, index + 4, &order);
-            }
-            index += 1;
-        }
-    }
-
-    /// "if the lamp is off turn it on": what holds, and then what is to be done.
-    pub(super) fn conditions(&mut self) {
-        let mut index = 0;
-        while index < self.tokens.len() {
-            let end = self.next_mark(index, &[",", "."]);
-            let is =
-                (index + 1..end.min(index + LONGEST_ASIDE)).find(|&at| ["is", "are"].contains(&self.at(at)));
-            if let Some(is) = is.filter(|_| self.at(index) == "if") {
-                let state = is + 1 + usize::from(self.at(is + 1) == "not");
-                let next = self.at(state + 2);
-                let ordered = self.lexicon.adjective(&[self.at(state)]).is_some()
-                    && self.is_base_verb(state + 1)
-                    && (is_determiner(next) || ["it", "them"].contains(&next));
-                if ordered {
-                    self.say(state + 1, state + 1, &[","]);
-                }
-            }
-            // "wash it if it is dirty, otherwise …": the condition first.
-            let otherwise = self.at(end) == "," && ["otherwise", "else"].contains(&self.at(end + 1));
-            if self.at(index) == "if" && index > 0 && !self.is_mark(index - 1) && otherwise {
-                let start = self.clause_start(index);
-                let condition = self.words(index..end);
-                let mut condition: Vec<&str> = condition.iter().map(String::as_str).collect();
-                condition.push(",");
-                let thing = self.words(start + 1..index);
-                let named = thing.first().is_some_and(|word| is_determiner(word));
-                if named && condition.get(1) == Some(&"it") {
-                    let is = usize::from(condition.get(2) != Some(&"is"));
-                    let is: &[&str] = if is == 1 { &["is"] } else { &[] };
-                    condition.splice(1..2, thing.iter().map(String::as_str).chain(is.iter().copied()));
-                    self.say(start + 1, end, &["it"]);
-                } else {
-                    if condition.get(1) == Some(&"it") && condition.get(2) != Some(&"is") {
-                        condition.insert(2, "is");
-                    }
-                    self.say(index, end, &[]);
-                }
-                self.say(start, start, &condition);
-                index = start + condition.len();
-            }
-            index += 1;
-        }
-    }
-
-    /// ", if it is dirty, wash it, otherwise …": a sentence of its own.
-    pub(super) fn alternatives(&mut self) {
-        for index in 1..self.tokens.len() {
-            let closes = self.next_mark(index, &[",", "."]);
-            let done = self.next_mark(closes + 1, &[",", "."]);
-            let otherwise = ["otherwise", "else"].contains(&self.at(done + 1));
-            if self.at(index) == "if" && self.at(index - 1) == "," && otherwise {
-                self.say(index - 1, index, &["."]);
-            }
-        }
-    }
-
-    /// "unless the fridge is closed": if it is not.
-    pub(super) fn exclusions(&mut self) {
-        let mut index = 0;
-        while index < self.tokens.len() {
-            let end = self.next_mark(index, &[",", "."]);
-            let is =
-                (index + 1..end.min(index + LONGEST_ASIDE)).find(|&at| ["is", "are"].contains(&self.at(at)));
-            if let Some(is) = is.filter(|&is| self.at(index) == "unless" && self.at(is + 1) != "not") {
-                self.say(is + 1, is + 1, &["not"]);
-                self.say(index, index + 1, &["if"]);
-            }
-            index += 1;
-        }
-    }
-
-    /// "turn it on if it is not already", "unless it is clean already": as it shall be anyway.
-    pub(super) fn needless_conditions(&mut self) {
-        let mut index = 1;
-        while index < self.tokens.len() {
-            let end = self.next_mark(index, &[",", "."]).min(self.tokens.len());
-            let said: Vec<&str> = (index..end).map(|at| self.at(at)).collect();
-            let comma = usize::from(self.at(index - 1) == ",");
-            let (opening, rest) = match said.as_slice() {
-                [opening @ ("if" | "unless"), "it" | "they", "is" | "are" | "has" | "have", rest @ ..]
-                | [opening @ ("if" | "unless"), "it" | "theyre", rest @ ..] => (*opening, rest),
-                ["if", rest @ ..] if rest.first() == Some(&"not") => ("if", rest),
-                _ => ("", &[][..]),
-            };
-            let denied = rest.first() == Some(&"not");
-            let already = rest.contains(&"already") || rest.contains(&"yet");
-            let needless = rest.len() <= LONGEST_ASIDE
-                && already
-                && (opening == "if" && denied || opening == "unless" && !denied);
-            if needless && !self.is_mark(index - 1 - comma) {
-                self.say(index - comma, end, &[]);
             }
             index += 1;
         }

@@ -93,7 +93,17 @@ impl Rewriting<'_> {
         while index < self.tokens.len() {
             let there = (index + 2..index + 5)
                 .find(|&at| self.at(at) == "there" && ["is", "are"].contains(&self.at(at + 1)));
-            if ["whatever", "what", "any"].contains(&self.at(index))
+            let is = (index + 2..index + 5).find(|&at| {
+                ["is", "are"].contains(&self.at(at))
+                    && self.is_place(at + 1)
+                    && self.noun_before(at).is_some()
+            });
+            if ["whatever", "what"].contains(&self.at(index))
+                && let Some(is) = is
+            {
+                self.say(is, is, &["that"]);
+                self.say(index, index + 1, &["all", "the"]);
+            } else if ["whatever", "what", "any"].contains(&self.at(index))
                 && let Some(there) = there.filter(|&there| self.noun_before(there).is_some())
             {
                 self.say(there, there + 2, &[]);

@@ -2,6 +2,7 @@
 //! being sliced", "when the lamp is on". Orders come in their order anyway; what has to be done for it is said plainly.
 
 use super::{LONGEST_ASIDE, Rewriting, SHALL};
+use crate::offline::clause::is_going;
 use crate::offline::inflect::VerbForm;
 use crate::offline::syntax::is_determiner;
 
@@ -35,10 +36,20 @@ impl Rewriting<'_> {
                 .take_while(|&at| ["is", "are", "has", "have", "been"].contains(&self.at(at)))
                 .count();
             let state = index + 2 + who + being;
-            if self.at(index) == ","
-                && noun > 0
-                && index > noun
-                && is_determiner(self.at(index - noun - 1))
+            let plain = |at: usize| {
+                at == end || self.lexicon.adjective(&[self.at(at)]).is_some_and(|state| !state.selects)
+            };
+            let first = index + 1 + usize::from(joins);
+            let several = self.at(first + 1) == "and" && first + 3 == end && plain(first) && plain(first + 2);
+            let behind = self.at(end + 1);
+            let goes_on = self.is_place(end + 1) || SHALL.contains(&behind) || is_going(behind);
+            let told = noun > 0 && index > noun && is_determiner(self.at(index - noun - 1));
+            if self.at(index) == "," && told && several && self.at(end) == "," && goes_on {
+                let states = self.words(first..end);
+                self.say(index, end + 1, &[]);
+                self.say_all(index - noun, index - noun, &states);
+            } else if self.at(index) == ","
+                && told
                 && joins
                 && state + 1 == end
                 && self.at(end) == ","

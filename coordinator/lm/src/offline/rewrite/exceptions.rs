@@ -1,0 +1,93 @@
+//! What is not meant: "apart from the fork", "…, except the bread".
+
+use super::{LONGEST_ASIDE, Rewriting, SHALL};
+use crate::offline::clause::is_going;
+use crate::offline::syntax::is_determiner;
+
+/// Other words for "except".
+const EXCEPT: [&[&str]; 11] = [
+    &["apart", "from"],
+    &["aside", "from"],
+    &["except", "for"],
+    &["excepting"],
+    &["excluding"],
+    &["with", "the", "exception", "of"],
+    &["not", "including"],
+    &["not", "counting"],
+    &["save", "for"],
+    &["bar", "the"],
+    &["minus", "the"],
+];
+
+/// Words that mean every one of what follows.
+const ALL: [&str; 7] = ["everything", "all", "every", "anything", "each", "any", "both"];
+
+impl Rewriting<'_> {
+    /// "apart from the fork", "everything but the fork"
+    pub(super) fn exceptions(&mut self) {
+        for index in 0..self.tokens.len() {
+            let said = self.one_of(index, &EXCEPT);
+            if let Some(length) = said {
+                let article = usize::from(["bar", "minus"].contains(&self.at(index)));
+                self.say(index, index + length - article, &["except"]);
+            } else if self.at(index) == "but" && is_determiner(self.at(index + 1)) {
+                let before = (index.saturating_sub(LONGEST_ASIDE)..index).rev();
+                let all =
+                    before.take_while(|&at| !self.is_mark(at)).any(|at| ALL[..4].contains(&self.at(at)));
+                if all {
+                    self.say(index, index + 1, &["except"]);
+                }
+            } else if self.starts(index, &["but", "not"])
+                && is_determiner(self.at(index + 2))
+                && self.all_before(index).is_some()
+                && self.noun_before(self.next_mark(index, &[",", "."])).is_some()
+            {
+                self.say(index, index + 2, &["except"]);
+            }
+        }
+    }
+
+    /// "all the food goes in the fridge, except the bread": all the food except the bread goes there.
+    pub(super) fn exceptions_said_last(&mut self) {
+        let mut index = 2;
+        while index < self.tokens.len() {
+            let comma = usize::from(self.at(index - 1) == ",");
+            let said = index - comma;
+            let end = self.next_mark(index, &[",", "."]);
+            let all = self.all_before(index).filter(|_| self.at(index) == "except");
+            let plain = self.noun_before(end).is_some()
+                && !(index + 1..end)
+                    .any(|at| SHALL.contains(&self.at(at)) || is_going(self.at(at)) || self.is_place(at));
+            if let (Some(all), true) = (all.and_then(|all| self.end_of_all(all, said)), plain)
+                && all < said
+            {
+                let exception = self.words(index..end);
+                self.say(said, end, &[]);
+                self.say_all(all, all, &exception);
+            }
+            index += 1;
+        }
+    }
+
+    /// Where the word of the same sentence stands that says that all are meant.
+    fn all_before(&self, index: usize) -> Option<usize> {
+        (self.sentence_start(index)..index).rev().find(|&at| ALL.contains(&self.at(at)))
+    }
+
+    /// Where what a word for all is said of ends: before what it should do, else behind its noun.
+    fn end_of_all(&self, all: usize, end: usize) -> Option<usize> {
+        let does = (all + 1..end).find(|&at| {
+            (SHALL.contains(&self.at(at)) || is_going(self.at(at)))
+                && !["that", "which"].contains(&self.at(at - 1))
+        });
+        let ordered = self.is_order(self.clause_start(all));
+        if let Some(does) = does.filter(|_| !ordered) {
+            return Some(does);
+        }
+        if ["everything", "anything"].contains(&self.at(all)) {
+            return Some(all + 1);
+        }
+        (all + 2..end.min(all + LONGEST_ASIDE))
+            .find(|&at| self.noun_before(at).is_some() && self.lexicon.noun(&[self.at(at)]).is_none())
+    }
+}
