@@ -36,6 +36,8 @@ pub struct Parser<'a> {
     pub(super) switches: bool,
     /// Whether the verb at hand does something to things, so that what should be otherwise is told apart.
     pub(super) acts: bool,
+    /// What the verb at hand can be done to.
+    pub(super) wants: Option<&'a str>,
     /// Whether the clause at hand is negated: then "or" forbids both.
     pub(super) negated: bool,
 }
@@ -56,6 +58,7 @@ impl<'a> Parser<'a> {
             wants_place: false,
             switches: true,
             acts: false,
+            wants: None,
             negated: false,
         }
     }
@@ -162,6 +165,7 @@ impl<'a> Parser<'a> {
         } else if let Some(word) = self.peek()
             && self.longest_noun().is_none()
             && !is_function_word(word)
+            && !["coffee", "wine"].contains(&word)
             && self.lexicon.adjective(&[word]).is_none()
             && self.word_at(1) != Some("of")
         {
@@ -187,6 +191,7 @@ impl<'a> Parser<'a> {
         self.switches = clause.verbs.is_empty()
             || clause.verbs.iter().any(|verb| verb.act == Act::Keep)
             || self.lexicon.verbs(first).iter().any(|(_, _, v)| v.wants.as_deref() == Some("toggleable"));
+        self.wants = clause.verbs.first().and_then(|verb| verb.wants.as_deref());
         self.arguments(&mut clause, start);
         (self.wants_place, self.switches, self.acts) = (false, true, false);
         if let Some((_, word)) = doing {
@@ -401,6 +406,7 @@ impl<'a> Parser<'a> {
             wants_place: self.wants_place,
             switches: self.switches,
             acts: false,
+            wants: None,
             negated: self.negated,
         }
     }

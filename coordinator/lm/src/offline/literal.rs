@@ -49,7 +49,7 @@ pub fn says_where(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
         }
         _ => false,
     };
-    let moves = clause.verbs.iter().any(|verb| matches!(verb.act, Act::Place | Act::Hold));
+    let moves = clause.verbs.iter().any(|verb| matches!(verb.act, Act::Place | Act::Hold | Act::Pour));
     let wished = clause.verbs.iter().all(|verb| verb.act == Act::Keep);
     let goal = |place: &syntax::Place| {
         matches!(place.relation, syntax::Relation::In | syntax::Relation::To)

@@ -44,6 +44,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.whose_slices();
     text.known_by_what_they_do();
     text.becoming();
+    text.not_only();
     text.corrections();
     text.people();
     text.doers();
@@ -265,7 +266,11 @@ impl Rewriting<'_> {
             let out = ["stay", "stays", "left", "kept", "stand"].contains(&before)
                 && word == "out"
                 && self.is_place(index + 1);
-            if all || same || out {
+            // "the apple and the bread should both be sliced"
+            let floats = ["should", "must", "shall", "to"].contains(&before)
+                && ["both", "all", "each"].contains(&word)
+                && next == "be";
+            if all || same || out || floats {
                 self.say(index, index + 1, &[]);
             }
             // "once clean, they go …"
@@ -381,6 +386,10 @@ impl Rewriting<'_> {
             {
                 self.say(index, index + 2, &[]);
                 self.join_before(index);
+                let closes = self.next_mark(index, &[",", "."]);
+                if self.at(closes) == "," {
+                    self.say(closes, closes + 1, &["."]);
+                }
             } else if self.at(index - 1) == "." && is_determiner(self.at(index)) {
                 let end = self.next_mark(index, &[",", "."]);
                 let too = if self.at(end - 1) == "too" {

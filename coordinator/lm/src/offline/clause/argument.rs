@@ -158,7 +158,7 @@ impl<'a> Parser<'a> {
         if clause.objects.is_empty() {
             return false;
         }
-        if self.needs_doing(clause) {
+        if clause.complement.is_empty() && self.needs_doing(clause) {
             return true;
         }
         let start = self.position;

@@ -137,7 +137,9 @@ impl Parser<'_> {
             && preposition(&ahead.rest()).is_some_and(|(relation, _)| relation == Relation::In)
             && ahead.word_at(1) != Some("it")
             && self.goes_into_a_vessel(&ahead);
-        if poured {
+        let sliced = things.iter().all(|phrase| phrase.head == super::super::syntax::Head::Slices)
+            && preposition(&ahead.rest()).is_some_and(|(relation, _)| relation == Relation::In);
+        if poured || sliced {
             return true;
         }
         // "with the stove left cold"
@@ -292,7 +294,13 @@ impl Parser<'_> {
 
     /// "… . Once it is clean, put it away": what is said first is done first.
     fn is_fronted(&self) -> bool {
-        let before = self.words[..self.position].iter().rev().find(|word| *word != ",");
+        // "Also, after you wash the cup, it goes in the sink."
+        const ADVERBS: [&str; 9] =
+            [",", "also", "finally", "next", "meanwhile", "first", "okay", "hey", "please"];
+        let said = &self.words[..self.position];
+        let comma = said.len() - said.iter().rev().take_while(|word| *word == ",").count();
+        let said = said[..comma].strip_suffix(&["after".to_owned(), "that".to_owned()]).unwrap_or(said);
+        let before = said.iter().rev().find(|word| !ADVERBS.contains(&word.as_str()));
         before.is_some_and(|word| [".", "and", "then", "but"].contains(&word.as_str()))
     }
 

@@ -186,7 +186,8 @@ impl<'a> Parser<'a> {
                 || relation != Relation::From
                     && !(relation == Relation::With && self.wants_place && clause.places.len() == 1)
                     && (goes_elsewhere || preposition(&self.rest()).is_some())
-                || matches!(self.peek(), Some("on" | "off" | "should" | "must" | "is" | "are" | "needs"));
+                || matches!(self.peek(), Some("on" | "off" | "should" | "must" | "is" | "are" | "needs"))
+                || matches!(self.peek(), Some("stays" | "stay")) && self.ahead(1).state_told();
             if another_pair {
                 self.position = start;
                 return;

@@ -1,7 +1,7 @@
 //! Verbs that put things somewhere: which of the places is the goal, and which only say where things were.
 
 use super::super::lexicon::{Act, Settings, Verb};
-use super::super::mention::Spoken;
+use super::super::mention::{Spoken, Which};
 use super::super::phrase::is_one_of;
 use super::super::scene::is_in_state;
 use super::super::syntax::{Clause, Head, Link, Phrase, Place, Relation};
@@ -312,7 +312,13 @@ impl<'a> Interpreter<'_, 'a> {
         let entities = &self.discourse.entities;
         let home = entities[place].kind().to_owned();
         let left: Vec<usize> =
-            objects.iter().copied().filter(|&e| !scene.accepts(&home, entities[e].kind())).collect();
+            // What was spoken of before is meant whether it fits or not.
+            objects
+                .iter()
+                .copied()
+                .filter(|&e| matches!(entities[e].which, Which::Named(_)))
+                .filter(|&e| !scene.accepts(&home, entities[e].kind()))
+                .collect();
         if left.is_empty() || left.len() == objects.len() {
             return;
         }

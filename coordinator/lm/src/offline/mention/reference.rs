@@ -9,6 +9,17 @@ impl Discourse<'_> {
     /// "the slices": of all that was sliced last, else of what could be.
     pub(super) fn slices(&mut self, plural: bool) -> Vec<usize> {
         let sliced = |&entity: &usize| self.entities[entity].asked.contains_key("isSliced");
+        if plural {
+            // "slice the apple, slice the bread; put every slice in the bowl": of all since something was put away.
+            let since = self.spoken.iter().rev().take_while(|spoken| !spoken.placed);
+            let mut all: Vec<usize> =
+                since.flat_map(|spoken| spoken.objects.iter().copied().filter(sliced)).collect();
+            all.sort_unstable();
+            all.dedup();
+            if all.len() > 1 {
+                return all;
+            }
+        }
         let last = self.spoken.iter().rev().find(|spoken| spoken.objects.iter().any(sliced));
         if let Some(spoken) = last.filter(|spoken| plural && spoken.objects.len() > 1) {
             return spoken.objects.iter().copied().filter(sliced).collect();
@@ -123,6 +134,12 @@ impl Discourse<'_> {
     /// "put it all on the table": whatever was spoken of and can be carried.
     pub(super) fn all_of_it(&mut self, wants: Option<&str>) -> Vec<usize> {
         let last = self.spoken.iter().rev().find(|spoken| !spoken.objects.is_empty());
+        // "cut the tomato and put all of it on the plate": its slices.
+        if let Some([only]) = last.map(|spoken| spoken.objects.as_slice())
+            && self.entities[*only].asked.contains_key("isSliced")
+        {
+            return vec![*only];
+        }
         let groups: Vec<&[usize]> = match last {
             Some(spoken) if spoken.objects.len() > 1 => vec![&spoken.objects],
             _ => self.spoken.iter().map(|spoken| spoken.objects.as_slice()).collect(),

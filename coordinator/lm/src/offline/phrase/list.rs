@@ -90,9 +90,13 @@ impl Parser<'_> {
     /// several things may be told so.
     fn something_should(&self, several: bool) -> bool {
         let mut ahead = self.ahead(0);
-        if ahead.phrase(DEEPEST).is_none() {
-            return false;
-        }
+        let Some(first) = ahead.phrase(DEEPEST) else { return false };
+        // "close the fridge and the fork and the spoon should …": what cannot be closed is not closed.
+        let unfit = self.wants.is_some_and(|wants| match &first.head {
+            Head::Noun(noun) => !self.can_be(noun, wants),
+            _ => false,
+        });
+        let several = several || unfit;
         while several && ahead.skip_joins() && ahead.phrase(DEEPEST).is_some() {}
         ahead.peek().is_some_and(|word| {
             ["should", "must", "shall", "needs"].contains(&word)

@@ -17,7 +17,12 @@ impl Rewriting<'_> {
     pub(super) fn fronted_places(&mut self) {
         let mut index = 0;
         while index < self.tokens.len() {
-            if !self.is_start(index) || preposition(&[self.at(index)]).is_none() {
+            // "…, into the fridge goes the egg"
+            let comma = index > 0
+                && self.at(index - 1) == ","
+                && (index + 2..index + 5)
+                    .any(|at| is_going(self.at(at)) && is_determiner(self.at(at + 1)) && self.noun_before(at).is_some());
+            if !(self.is_start(index) || comma) || preposition(&[self.at(index)]).is_none() {
                 index += 1;
                 continue;
             }

@@ -69,9 +69,11 @@ impl Rewriting<'_> {
                 self.say(index, index + 1, &["needs"]);
             } else if self.starts(index, &["out", "with"])
                 && is_determiner(self.at(index + 2))
-                && (index == 0 || [",", ".", "and"].contains(&self.at(index - 1)))
+                && (index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1)))
             {
-                self.say(index, index + 2, &["take", "out"]);
+                let end = self.next_mark(index, &[",", "."]);
+                let from = (index..end).any(|at| ["of", "from"].contains(&self.at(at)));
+                self.say(index, index + 2, if from { &["take", "out"] } else { &["throw", "away"] });
             }
             index += 1;
         }

@@ -14,9 +14,12 @@ impl Rewriting<'_> {
         while index < self.tokens.len() {
             self.each_one(index);
             let subject = self.is_subject_before(index);
-            let _ = subject && (self.gets_so(index) || self.goes_so(index) || self.rests(index))
+            let _ = subject && (self.gets_so(index) || self.needs_a_wash(index) || self.has_in_it(index) || self.goes_so(index) || self.rests(index))
                 || self.having_it_somewhere(index)
                 || self.given_a_liquid(index)
+                || self.water_runs(index)
+                || self.filled_with_things(index)
+                || self.made_into_slices(index)
                 || self.until_full(index)
                 || self.let_cool(index);
             index += 1;
@@ -48,6 +51,83 @@ impl Rewriting<'_> {
         true
     }
 
+    /// "needs a wash", "could do with a good rinse": should be washed.
+    fn needs_a_wash(&mut self, index: usize) -> bool {
+        const DONE: [(&str, &str); 9] = [
+            ("wash", "washed"),
+            ("washing", "washed"),
+            ("rinse", "rinsed"),
+            ("rinsing", "rinsed"),
+            ("clean", "cleaned"),
+            ("cleaning", "cleaned"),
+            ("scrub", "scrubbed"),
+            ("wipe", "wiped"),
+            ("polish", "cleaned"),
+        ];
+        let needs = match (self.at(index), self.at(index + 1)) {
+            ("needs" | "need" | "wants" | "want" | "deserves" | "deserve" | "gets" | "get", _) => 1,
+            ("could", "use") => 2,
+            _ => return false,
+        };
+        let amount = usize::from(["a", "some", "another"].contains(&self.at(index + needs)));
+        let how = index + needs + amount;
+        let good =
+            usize::from(["good", "quick", "proper", "thorough", "little", "nice"].contains(&self.at(how)));
+        let done = DONE.iter().find(|(doing, _)| *doing == self.at(how + good));
+        if let Some((_, done)) = done.filter(|_| amount > 0) {
+            self.say(index, how + good + 1, &["should", "be", done]);
+            return true;
+        }
+        false
+    }
+
+    /// "should have coffee in it", "needs water": should be filled with it.
+    fn has_in_it(&mut self, index: usize) -> bool {
+        let has = match (self.at(index), self.at(index + 1)) {
+            ("should" | "must" | "shall", "have" | "contain") => 2,
+            ("needs" | "need", "to") if self.at(index + 2) == "have" => 3,
+            ("needs" | "need" | "wants", _) => 1,
+            _ => return false,
+        };
+        let some = usize::from(["some", "fresh", "hot"].contains(&self.at(index + has)));
+        let liquid = index + has + some;
+        let inside = 2 * usize::from(
+            ["in", "inside"].contains(&self.at(liquid + 1)) && ["it", "them"].contains(&self.at(liquid + 2)),
+        );
+        let ends = self.is_mark(liquid + 1 + inside)
+            || ["and", "before", "while", "then", "after"].contains(&self.at(liquid + 1 + inside));
+        if !LIQUIDS.contains(&self.at(liquid)) || !ends {
+            return false;
+        }
+        let liquid_word = self.at(liquid).to_owned();
+        self.say(index, liquid + 1 + inside, &["should", "be", "filled", "with", &liquid_word]);
+        true
+    }
+
+    /// "let water run into the cup": run it in; "use the coffee machine to fill the cup": fill it with coffee.
+    fn water_runs(&mut self, index: usize) -> bool {
+        let the = usize::from(self.at(index + 1) == "the");
+        if self.at(index) == "let"
+            && self.at(index + 1 + the) == "water"
+            && self.at(index + 2 + the) == "run"
+            && ["into", "in"].contains(&self.at(index + 3 + the))
+        {
+            self.say(index, index + 3 + the, &["pour", "water"]);
+            return true;
+        }
+        let brewed = ["use", "using"].contains(&self.at(index))
+            && self.at(index + 2) == "coffee"
+            && self.starts(index + 4, &["to", "fill"]);
+        if brewed {
+            let end = (index + 6..)
+                .find(|&at| self.is_mark(at) || ["and", "then", "before", "while"].contains(&self.at(at)));
+            let end = end.unwrap_or(index + 6);
+            self.say(end, end, &["with", "coffee"]);
+            self.say(index, index + 5, &[]);
+        }
+        brewed
+    }
+
     /// "goes off", "can go out", "must not run": should be off; "needs to go into the pot": should go there; "comes out
     /// onto the counter": comes onto it.
     fn goes_so(&mut self, index: usize) -> bool {
@@ -55,7 +135,8 @@ impl Rewriting<'_> {
         let goes = |word: &str| ["goes", "go", "comes", "come"].contains(&word);
         let verb = index + usize::from(shall);
         let state = self.at(verb + 1).to_owned();
-        let ends = self.is_mark(verb + 2) || ["and", "while", "then", "but"].contains(&self.at(verb + 2));
+        let ends = self.is_mark(verb + 2) || ["and", "while", "then", "but", "before", "after", "once", "when", "until"]
+                    .contains(&self.at(verb + 2));
         let needs = ["needs", "need", "has", "have"].contains(&self.at(index)) && self.at(index + 1) == "to";
         let aside = ["out", "over", "back", "down", "up"].contains(&self.at(index + 1));
         if goes(self.at(verb)) && ["off", "on", "out", "dark"].contains(&state.as_str()) && ends {
@@ -70,7 +151,10 @@ impl Rewriting<'_> {
             && self.is_mark(index + 1)
         {
             self.say(index, index + 1, &["should", "be", "on"]);
-        } else if needs && is_going(self.at(index + 2)) && self.is_place(index + 3) {
+        } else if needs
+            && (is_going(self.at(index + 2)) && self.is_place(index + 3)
+                || self.at(index + 2) == "be" && self.is_participle(index + 3))
+        {
             self.say(index, index + 2, &["should"]);
         } else if is_going(self.at(index))
             && aside
@@ -152,6 +236,50 @@ impl Rewriting<'_> {
             return true;
         }
         false
+    }
+
+    /// "fill the bowl with all the slices": put them in it.
+    fn filled_with_things(&mut self, index: usize) -> bool {
+        let with = (index + 2..index + 6).find(|&at| self.at(at) == "with");
+        let Some(with) = with.filter(|&with| {
+            self.at(index) == "fill" && is_determiner(self.at(index + 1)) && self.noun_before(with).is_some()
+        }) else {
+            return false;
+        };
+        let end = (with + 1..)
+            .find(|&at| self.is_mark(at) || ["then", "and"].contains(&self.at(at)) && self.is_order(at + 1))
+            .unwrap_or(with);
+        let end = end - usize::from(self.at(end - 1) == "and");
+        let slices = ["slices", "pieces", "slice", "piece", "them", "both", "everything"].contains(&self.at(end - 1));
+        if !slices {
+            return false;
+        }
+        let mut order = vec!["put".to_owned()];
+        order.extend(self.words(with + 1..end));
+        order.push("in".to_owned());
+        order.extend(self.words(index + 1..with));
+        self.say_all(index, end, &order);
+        true
+    }
+
+    /// "turn the apple and the bread into slices": slice them.
+    fn made_into_slices(&mut self, index: usize) -> bool {
+        let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
+        let end = self.next_mark(index, &[",", "."]);
+        let into = (index + 2..end).find(|&at| {
+            self.at(at) == "into" && ["slices", "pieces", "chunks", "cubes", "wedges"].contains(&self.at(at + 1))
+        });
+        let Some(into) = into.filter(|&into| {
+            opens
+                && ["turn", "make"].contains(&self.at(index))
+                && self.noun_before(into).is_some()
+                && !(index + 1..into).any(|at| self.is_order(at))
+        }) else {
+            return false;
+        };
+        self.say(into, into + 2, &[]);
+        self.say(index, index + 1, &["slice"]);
+        true
     }
 
     /// "hold the cup under the tap until it is full", "run the tap into the mug": fill it.

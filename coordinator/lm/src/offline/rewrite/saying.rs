@@ -313,7 +313,8 @@ impl Rewriting<'_> {
             let gets = ["needs", "wants", "gets", "get", "receives", "receive"]
                 .contains(&self.at(index + shall))
                 && is_determiner(self.at(index + shall + 1))
-                && self.lexicon.noun(&[self.at(index + shall + 2)]).is_some();
+                && (self.lexicon.noun(&[self.at(index + shall + 2)]).is_some()
+                    || (2..5).any(|at| ["slice", "slices", "pieces"].contains(&self.at(index + shall + at))));
             let holds = gets
                 || ["contain", "contains", "hold", "holds"].contains(&self.at(index + shall))
                     && (is_determiner(self.at(index + shall + 1)) || shall == 1);
@@ -335,7 +336,10 @@ impl Rewriting<'_> {
                 continue;
             }
             let end = (things..self.tokens.len())
-                .find(|&at| self.at(at) == "." || self.at(at) == "that" || self.another_verb(at))
+                .find(|&at| {
+                    [".", "that", "before", "after", "while", "once", "when", "until"].contains(&self.at(at))
+                        || self.another_verb(at)
+                })
                 .unwrap_or(self.tokens.len());
             let end =
                 (things..end).rev().find(|&at| ![",", "and"].contains(&self.at(at))).map_or(end, |at| at + 1);
@@ -353,8 +357,11 @@ impl Rewriting<'_> {
             return false;
         }
         let end = self.next_mark(at + 1, &[",", "."]);
-        let next = self.at(at + 1 + usize::from(self.at(at + 1) == "and"));
-        let ordered = !self.lexicon.verbs(next).is_empty() && self.lexicon.noun(&[next]).is_none();
+        let joins = (at + 1..).take_while(|&at| ["and", "then"].contains(&self.at(at))).count();
+        let next = self.at(at + 1 + joins);
+        let ordered = next == "with"
+            || !self.lexicon.verbs(next).is_empty()
+                && (self.lexicon.noun(&[next]).is_none() || is_determiner(self.at(at + 2 + joins)));
         ordered
             || (at + 1..end).any(|at| {
                 SHALL.contains(&self.at(at))

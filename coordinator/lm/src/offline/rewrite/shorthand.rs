@@ -21,6 +21,17 @@ impl Rewriting<'_> {
         while index < self.tokens.len() {
             let start = self.clause_start_of_list(index);
             let colon = self.tokens[index].typed == ":";
+            let first = self.clause_start(index);
+            let order = (first..index).find(|&at| self.is_order(at));
+            if colon
+                && order.is_some_and(|order| index - order <= 2)
+                && self.noun_before(index).is_none()
+                && is_determiner(self.at(index + 1))
+            {
+                // "wash up: the mug, the fork"
+                self.say(index, index + 1, &[]);
+                continue;
+            }
             if !colon || start == index || !self.names_only(start, index) {
                 index += 1;
                 continue;
@@ -175,6 +186,19 @@ impl Rewriting<'_> {
                 self.say(index, index + 3, &[]);
             }
             index += 1;
+        }
+    }
+
+    /// "not only the knife but also the pan": both.
+    pub(super) fn not_only(&mut self) {
+        for index in 0..self.tokens.len() {
+            let end = self.next_mark(index, &["."]);
+            let but = (index + 2..end).find(|&at| self.at(at) == "but");
+            if let Some(but) = but.filter(|_| self.starts(index, &["not", "only"])) {
+                let also = usize::from(self.at(but + 1) == "also");
+                self.say(but, but + 1 + also, &["and"]);
+                self.say(index, index + 2, &[]);
+            }
         }
     }
 

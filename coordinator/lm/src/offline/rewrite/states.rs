@@ -33,8 +33,16 @@ impl Rewriting<'_> {
         while index < self.tokens.len() {
             let opens = index == 0 || [",", ".", "and"].contains(&self.at(index - 1));
             let lights = ["light", "lights", "lamp", "lamps"].contains(&self.at(index + 1));
+            let running = (index + 2..index + 5).find(|&at| {
+                ["running", "burning", "on", "lit"].contains(&self.at(at)) && self.noun_before(at).is_some()
+            });
             if opens && self.at(index) == "no" && lights && self.is_mark(index + 2) {
                 self.say(index + 2, index + 2, &["should", "be", "on"]);
+            } else if let Some(running) =
+                running.filter(|&at| opens && self.at(index) == "no" && self.is_mark(at + 1))
+            {
+                // "no microwave running"
+                self.say(running, running + 1, &["should", "be", "on"]);
             }
             index += 1;
         }

@@ -94,10 +94,34 @@ impl Rewriting<'_> {
             let state = self.lexicon.adjective(&[self.at(index + length)]).is_some();
             let ends = self.is_mark(index + length + 1);
             if joins && who && state && ends && !self.is_mark(index - 1) {
+                let brought = self.brings(self.clause_start(index), index, index + length);
+                let wish: &[&str] = if self.at(index + 1) == "it" { &["it"] } else { &["they"] };
+                let word = self.at(index + length).to_owned();
                 self.say(index, index + length + 1, &[]);
+                if !brought {
+                    // "leave it in the sink when it is clean": nothing else says that it should be.
+                    self.say(index, index, &[".", wish[0], "should", "be", &word]);
+                }
             }
             index += 1;
         }
+    }
+
+    /// Whether something said before brings about the state that is named at a place, or the state is no such thing.
+    fn brings(&self, clause: usize, index: usize, state: usize) -> bool {
+        let Some(state) = self.lexicon.adjective(&[self.at(state)]) else { return true };
+        let earlier = self.sentence_start(clause).saturating_sub(2 * LONGEST_ASIDE);
+        state.selects
+            || (earlier..index).any(|at| {
+                self.lexicon
+                    .verbs(self.at(at))
+                    .iter()
+                    .any(|(_, _, verb)| verb.set.keys().any(|property| state.set.contains_key(property)))
+                    || self
+                        .lexicon
+                        .adjective(&[self.at(at)])
+                        .is_some_and(|said| said.set.keys().any(|property| state.set.contains_key(property)))
+            })
     }
 
     /// "the cup the plate and the fork": a list without commas; "the kitchen's clock": the clock.
