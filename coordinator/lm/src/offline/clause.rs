@@ -356,7 +356,11 @@ impl<'a> Parser<'a> {
         let does = clause.verbs.iter().any(|verb| verb.act != Act::Keep);
         let put = places(clause) && !clause.places.is_empty();
         put || !clause.objects.is_empty()
-            && (does || !clause.places.is_empty() || !clause.complement.is_empty())
+            && (does
+                || !clause.places.is_empty()
+                || !clause.complement.is_empty()
+                // "make it dark, and the fork needs washing"
+                || !clause.unknown.is_empty())
     }
 
     /// "… to be put in the sink": what was spoken of is to be put there.

@@ -126,6 +126,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.reasons();
     text.same_of_others();
     text.named_members();
+    text.sentences_apart();
     text.tokens
 }
 
@@ -386,9 +387,11 @@ impl Rewriting<'_> {
             {
                 self.say(index, index + 2, &[]);
                 self.join_before(index);
-                let closes = self.next_mark(index, &[",", "."]);
-                if self.at(closes) == "," {
-                    self.say(closes, closes + 1, &["."]);
+                // "…, and so does the spoon, and the kettle …": what comes then is another thing.
+                let ends = (index + 2..index + 6)
+                    .find(|&at| self.noun_before(at).is_some() && [",", "and"].contains(&self.at(at)));
+                if let Some(ends) = ends {
+                    self.say(ends, ends + 1, &["."]);
                 }
             } else if self.at(index - 1) == "." && is_determiner(self.at(index)) {
                 let end = self.next_mark(index, &[",", "."]);

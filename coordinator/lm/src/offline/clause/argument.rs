@@ -220,7 +220,11 @@ impl<'a> Parser<'a> {
                     && !(clause.verbs.is_empty()
                         && clause.unknown.is_empty()
                         && behind.is_none_or(|b| {
-                            [",", ".", "and", "please", "when", "once", "if", "until", "at"].contains(b)
+                            [
+                                ",", ".", "and", "please", "when", "once", "if", "until", "at", "before",
+                                "after", "while", "then",
+                            ]
+                            .contains(b)
                         }))
                     && clause.verbs.iter().all(|verb| verb.act != Act::Keep && verb.act != Act::Place))
             {

@@ -128,6 +128,7 @@ impl<'a> Parser<'a> {
     pub(super) fn new_subject_follows(&self) -> bool {
         let mut ahead = self.ahead(0);
         ahead.skip_joins();
+        ahead.position += usize::from(ahead.peek() == Some("then"));
         // "…, no drawer may be open"
         ahead.position += usize::from(ahead.peek() == Some("no"));
         let things = ahead.phrases(0);
@@ -140,6 +141,7 @@ impl<'a> Parser<'a> {
             ["should", "must", "needs", "need", "is", "are", "has", "have", "ought", "can", "may", "shall"]
                 .contains(&word)
                 || is_going(word) && ahead.ahead(1).place_length().is_some()
+                || ["stays", "stay", "remains"].contains(&word) && ahead.ahead(1).state_told()
         })
     }
 

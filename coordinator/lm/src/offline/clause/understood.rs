@@ -35,11 +35,9 @@ impl<'a> Parser<'a> {
             || ["want", "like", "need", "prefer"].contains(&before);
         let pronoun = |phrase: &Phrase| (going || shall) && matches!(phrase.head, Head::Pronoun { .. });
         let all = |phrase: &Phrase| going && phrase.head == Head::Everything;
-        let moved =
-            clause.objects.iter().all(|phrase| {
-                self.is_movable(phrase) || pronoun(phrase) || all(phrase) || phrase.head == Head::Slices
-            })
-                && !clause.objects.is_empty();
+        let moved = clause.objects.iter().all(|phrase| {
+            self.is_movable(phrase) || pronoun(phrase) || all(phrase) || phrase.head == Head::Slices
+        }) && !clause.objects.is_empty();
         let with = start.checked_sub(1).is_some_and(|at| self.words[at] == "with");
         let beside = (going || with) && clause.places.iter().any(|place| place.relation == Relation::Near);
         let stays = said.last().is_some_and(|word| ["stay", "stays"].contains(&word.as_str()));

@@ -48,7 +48,14 @@ impl<'a> Parser<'a> {
             _ => None,
         };
         // "switch the kettle on and the lights off": the nearest is the verb's.
-        let nearest = candidates.iter().filter(|(_, particles, _)| stands(particles).is_some());
+        // "shut the fridge and the lights off": the fridge is not shut off.
+        let first = (1..5).find_map(|at| self.longest_noun_at(self.position + at));
+        let fits = |verb: &Verb| match (&verb.wants, &first) {
+            (Some(wants), Some((noun, _, _))) => self.can_be(noun, wants) || self.is_absent(noun),
+            _ => true,
+        };
+        let nearest =
+            candidates.iter().filter(|(_, particles, verb)| stands(particles).is_some() && fits(verb));
         let (form, particles, _) = nearest.min_by_key(|(_, particles, _)| stands(particles))?;
         let verbs =
             candidates.iter().filter(|(_, other, _)| other == particles).map(|(_, _, verb)| *verb).collect();
@@ -92,6 +99,12 @@ impl<'a> Parser<'a> {
         }
         if word == "that" && self.word_at(1).is_some_and(|next| is_determiner(next) && next != "one") {
             return true;
+        }
+        // "water should be in the bowl"
+        if let Some((_, _, length)) = self.longest_noun()
+            && matches!(self.word_at(length), Some("should" | "must" | "shall" | "goes" | "is" | "needs"))
+        {
+            return false;
         }
         // "slices of tomato and slices of potato"
         if self.lexicon.is_small("slices", &[word.trim_end_matches('s')]) && self.word_at(1) == Some("of") {
@@ -161,7 +174,9 @@ impl<'a> Parser<'a> {
     /// "lights off", "microwave on please": a thing and its switch, not a verb and its particle.
     fn is_switched_thing(&self) -> bool {
         let Some((_, _, length)) = self.longest_noun() else { return false };
-        let ends = self.word_at(length + 1).is_none_or(|next| [".", ",", "and", "please"].contains(&next));
+        let ends = self.word_at(length + 1).is_none_or(|next| {
+            [".", ",", "and", "please", "before", "after", "while", "then", "once", "when"].contains(&next)
+        });
         matches!(self.word_at(length), Some("on" | "off")) && ends
     }
 

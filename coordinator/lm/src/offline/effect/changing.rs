@@ -214,13 +214,13 @@ impl<'a> Interpreter<'_, 'a> {
                 && matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.first().is_some_and(|kind| brews(kind)))
         });
         let entities = &self.discourse.entities;
+        let off = |e: usize| {
+            let off = Change::State("isToggled".to_owned(), super::super::no());
+            self.facts.iter().any(|fact| fact.entity == e && fact.change == off)
+        };
+        let brews_now = |e: usize| brews(entities[e].kind()) && !off(e) && clause.places.is_empty();
         let before = self.discourse.spoken.last().is_some_and(|spoken| {
-            spoken
-                .objects
-                .iter()
-                .chain(&spoken.places)
-                .chain(&spoken.reached)
-                .any(|&e| brews(entities[e].kind()))
+            spoken.objects.iter().chain(&spoken.places).chain(&spoken.reached).any(|&e| brews_now(e))
         });
         said_with || before
     }

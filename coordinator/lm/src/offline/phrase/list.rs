@@ -17,7 +17,7 @@ impl Parser<'_> {
             if !joined
                 || self.clause_starts_here(false)
                 || self.another_subject(depth > 0)
-                || depth == 0 && self.acts && self.something_should(comma)
+                || (depth > 0 || self.acts) && self.something_should(comma || depth > 0)
             {
                 self.position = start;
                 return found;
@@ -96,11 +96,12 @@ impl Parser<'_> {
             Head::Noun(noun) => !self.can_be(noun, wants),
             _ => false,
         });
-        let several = several || unfit;
+        let several = several || unfit || first.text.starts_with("both ");
         while several && ahead.skip_joins() && ahead.phrase(DEEPEST).is_some() {}
         ahead.peek().is_some_and(|word| {
             ["should", "must", "shall", "needs"].contains(&word)
-                || is_going(word) && ahead.ahead(1).place_length().is_some()
+                || ["is", "are"].contains(&word) && ahead.word_at(1) == Some("to")
+                || is_going(word) && (ahead.ahead(1).place_length().is_some() || ahead.ahead(1).state_told())
         })
     }
 

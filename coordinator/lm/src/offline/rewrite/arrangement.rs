@@ -20,8 +20,9 @@ impl Rewriting<'_> {
             // "…, into the fridge goes the egg"
             let comma = index > 0
                 && self.at(index - 1) == ","
-                && (index + 2..index + 5)
-                    .any(|at| is_going(self.at(at)) && is_determiner(self.at(at + 1)) && self.noun_before(at).is_some());
+                && (index + 2..index + 5).any(|at| {
+                    is_going(self.at(at)) && is_determiner(self.at(at + 1)) && self.noun_before(at).is_some()
+                });
             if !(self.is_start(index) || comma) || preposition(&[self.at(index)]).is_none() {
                 index += 1;
                 continue;
@@ -35,7 +36,8 @@ impl Rewriting<'_> {
                 let goes = is_going(self.at(verb)) || self.at(verb) == "should";
                 let wish = if goes { verb + usize::from(self.at(verb) == "should") + 1 } else { verb };
                 // ", and the plate …": another thing is said.
-                let stop = (wish..end).find(|&at| self.another_follows(at)).unwrap_or(end);
+                let later = |at: usize| ["before", "after", "while", "once", "when"].contains(&self.at(at));
+                let stop = (wish..end).find(|&at| later(at) || self.another_follows(at)).unwrap_or(end);
                 let mut behind: Vec<&str> = if goes { vec!["go"] } else { Vec::new() };
                 behind.extend(place);
                 self.say(stop, stop, &behind);
@@ -62,7 +64,12 @@ impl Rewriting<'_> {
         let person = (from..from + LONGEST_ASIDE)
             .take_while(|&at| !self.is_mark(at) && self.at(at) != "and")
             .any(|at| ["i", "we"].contains(&self.at(at)) && ["want", "need"].contains(&self.at(at + 1)));
-        joined && (preposition(&[self.at(from)]).is_some() && self.at(from) != "of" || person)
+        let told = (from + 1..from + 5).any(|at| {
+            self.noun_before(at).is_some()
+                && (["should", "must"].contains(&self.at(at)) || is_going(self.at(at)))
+        });
+        let ordered = self.is_order(from) || self.at(from) == "then" || told;
+        joined && (preposition(&[self.at(from)]).is_some() && self.at(from) != "of" || person || ordered)
     }
 
     /// "the plate I want on the table": "I want the plate on the table".

@@ -69,7 +69,7 @@ impl Rewriting<'_> {
                 self.say(index, index + 1, &["needs"]);
             } else if self.starts(index, &["out", "with"])
                 && is_determiner(self.at(index + 2))
-                && (index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1)))
+                && (index == 0 || [",", ".", "and", "then", "while", "please"].contains(&self.at(index - 1)))
             {
                 let end = self.next_mark(index, &[",", "."]);
                 let from = (index..end).any(|at| ["of", "from"].contains(&self.at(at)));

@@ -14,7 +14,12 @@ impl Rewriting<'_> {
         while index < self.tokens.len() {
             self.each_one(index);
             let subject = self.is_subject_before(index);
-            let _ = subject && (self.gets_so(index) || self.needs_a_wash(index) || self.has_in_it(index) || self.goes_so(index) || self.rests(index))
+            let _ = subject
+                && (self.gets_so(index)
+                    || self.needs_a_wash(index)
+                    || self.has_in_it(index)
+                    || self.goes_so(index)
+                    || self.rests(index))
                 || self.having_it_somewhere(index)
                 || self.given_a_liquid(index)
                 || self.water_runs(index)
@@ -135,8 +140,9 @@ impl Rewriting<'_> {
         let goes = |word: &str| ["goes", "go", "comes", "come"].contains(&word);
         let verb = index + usize::from(shall);
         let state = self.at(verb + 1).to_owned();
-        let ends = self.is_mark(verb + 2) || ["and", "while", "then", "but", "before", "after", "once", "when", "until"]
-                    .contains(&self.at(verb + 2));
+        let ends = self.is_mark(verb + 2)
+            || ["and", "while", "then", "but", "before", "after", "once", "when", "until"]
+                .contains(&self.at(verb + 2));
         let needs = ["needs", "need", "has", "have"].contains(&self.at(index)) && self.at(index + 1) == "to";
         let aside = ["out", "over", "back", "down", "up"].contains(&self.at(index + 1));
         if goes(self.at(verb)) && ["off", "on", "out", "dark"].contains(&state.as_str()) && ends {
@@ -250,7 +256,8 @@ impl Rewriting<'_> {
             .find(|&at| self.is_mark(at) || ["then", "and"].contains(&self.at(at)) && self.is_order(at + 1))
             .unwrap_or(with);
         let end = end - usize::from(self.at(end - 1) == "and");
-        let slices = ["slices", "pieces", "slice", "piece", "them", "both", "everything"].contains(&self.at(end - 1));
+        let slices =
+            ["slices", "pieces", "slice", "piece", "them", "both", "everything"].contains(&self.at(end - 1));
         if !slices {
             return false;
         }
@@ -267,7 +274,8 @@ impl Rewriting<'_> {
         let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
         let end = self.next_mark(index, &[",", "."]);
         let into = (index + 2..end).find(|&at| {
-            self.at(at) == "into" && ["slices", "pieces", "chunks", "cubes", "wedges"].contains(&self.at(at + 1))
+            self.at(at) == "into"
+                && ["slices", "pieces", "chunks", "cubes", "wedges"].contains(&self.at(at + 1))
         });
         let Some(into) = into.filter(|&into| {
             opens

@@ -68,7 +68,9 @@ impl Rewriting<'_> {
             let end = self.next_mark(index, &["."]);
             let back = (index + length + 1..end)
                 .find(|&at| ["on", "in", "inside"].contains(&self.at(at)) && self.at(at + 1) == "it");
-            let opens = first == 0 || self.is_mark(first - 1) || self.at(first - 1) == "and";
+            let opens = first == 0
+                || self.is_mark(first - 1)
+                || ["and", "then", "while", "before", "that"].contains(&self.at(first - 1));
             let plain =
                 back.is_some_and(|back| !(index + length..back).any(|at| SHALL.contains(&self.at(at))));
             if let (true, Some(back)) = (length > 0 && noun > 0 && opens && plain, back)

@@ -128,7 +128,7 @@ impl Rewriting<'_> {
     pub(super) fn existence(&mut self) {
         let mut index = 0;
         while index < self.tokens.len() {
-            let opens = index == 0 || [",", ".", "and"].contains(&self.at(index - 1));
+            let opens = index == 0 || [",", ".", "and", "then", "while"].contains(&self.at(index - 1));
             let that = index > 0 && ["that", "sure", "ensure"].contains(&self.at(index - 1));
             let wished = ["should", "must", "shall", "needs", "has"].contains(&self.at(index + 1));
             if self.at(index) != "there" || !(that || opens && wished) {

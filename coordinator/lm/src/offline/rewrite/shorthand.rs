@@ -61,7 +61,7 @@ impl Rewriting<'_> {
     }
 
     /// Whether a range is nothing but the names of things.
-    fn names_only(&self, from: usize, to: usize) -> bool {
+    pub(super) fn names_only(&self, from: usize, to: usize) -> bool {
         let mut at = from;
         while at < to {
             let word = self.at(at);

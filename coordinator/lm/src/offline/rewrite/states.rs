@@ -140,4 +140,36 @@ impl Rewriting<'_> {
                 || matches!(words.as_slice(), ["slices" | "pieces" | "coffee" | "water" | "wine"])
         })
     }
+
+    /// "make it dark, and the mug should be washed": two sentences, where the first says something of its own.
+    pub(super) fn sentences_apart(&mut self) {
+        const OPENS: [&str; 9] =
+            ["if", "unless", "when", "once", "while", "before", "after", "until", "whilst"];
+        let mut index = 2;
+        while index < self.tokens.len() {
+            let comma = self.at(index) == ",";
+            let next = index + 1 + usize::from(comma && self.at(index + 1) == "and");
+            let joins = comma || self.at(index) == "and";
+            let shall = (next + 2..next + 9).find(|&at| {
+                SHALL[..3].contains(&self.at(at)) || is_going(self.at(at)) && self.is_place(at + 1)
+            });
+            let start = self.sentence_start(index);
+            let subject = shall.is_some_and(|shall| {
+                is_determiner(self.at(next))
+                    && self.names_only(next, shall)
+                    && (comma || !(next..shall).any(|at| [",", "and"].contains(&self.at(at))))
+            });
+            let part = self.clause_start(index);
+            let first = (part..index)
+                .find(|&at| !["and", "then", "also", "please", "could", "you"].contains(&self.at(at)));
+            let said = (part..index).any(|at| SHALL[..3].contains(&self.at(at)))
+                || first.is_some_and(|first| self.is_order(first));
+            let sure = (start..index).any(|at| ["sure", "ensure", "that"].contains(&self.at(at)));
+            let opens = (start..index).any(|at| OPENS.contains(&self.at(at)));
+            if joins && subject && said && !opens && !sure {
+                self.say(index, next, &["."]);
+            }
+            index += 1;
+        }
+    }
 }

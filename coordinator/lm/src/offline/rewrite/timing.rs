@@ -42,8 +42,7 @@ impl Rewriting<'_> {
             let first = index + 1 + usize::from(joins);
             let several = first < end
                 && plain(first)
-                && (first + 1 == end
-                    || self.at(first + 1) == "and" && first + 3 == end && plain(first + 2));
+                && (first + 1 == end || self.at(first + 1) == "and" && first + 3 == end && plain(first + 2));
             let behind = self.at(end + 1);
             let goes_on = self.is_place(end + 1) || SHALL.contains(&behind) || is_going(behind);
             let told = noun > 0 && index > noun && is_determiner(self.at(index - noun - 1));
@@ -103,9 +102,9 @@ impl Rewriting<'_> {
             if done && joined && self.at(index) == "put" && self.is_place(index + 1) {
                 let both = shall.is_some_and(|be| {
                     let start = self.clause_start(be);
-                    let ordered = self.is_order(start + usize::from(self.at(start) == "and"));
+                    let first = start + usize::from(self.at(start) == "and");
                     (start..be).any(|at| ["they", "both"].contains(&self.at(at)))
-                        || !ordered && (start + 1..be).any(|at| self.at(at) == "and")
+                        || self.names_only(first, be - 1) && (first..be).any(|at| self.at(at) == "and")
                 });
                 self.say(index + 1, index + 1, if both { &["them"] } else { &["it"] });
             }

@@ -175,7 +175,8 @@ impl Rewriting<'_> {
     pub(super) fn turns_of_phrase(&mut self) {
         let mut index = 0;
         while index < self.tokens.len() {
-            let opens = self.begins(index) || index > 0 && self.at(index - 1) == "then";
+            let opens = self.begins(index)
+                || index > 0 && ["then", "please", "before", "you", "should"].contains(&self.at(index - 1));
             if opens && ["off", "on"].contains(&self.at(index)) && self.at(index + 1) == "with" {
                 let particle = self.at(index).to_owned();
                 self.say(index, index + 2, &["turn", &particle]);

@@ -52,6 +52,7 @@ impl Rewriting<'_> {
 
     /// "the statue joins it": it is beside it.
     pub(super) fn company(&mut self) {
+        self.along_with();
         for index in 1..self.tokens.len() {
             let next = self.at(index + 1);
             if ["joins", "join"].contains(&self.at(index))
@@ -139,6 +140,30 @@ impl Rewriting<'_> {
                     self.say(start, index + 1 + length, &[]);
                     index = start;
                 }
+            }
+            index += 1;
+        }
+    }
+
+    /// "put the spoon in the drawer along with the fork": put both there.
+    fn along_with(&mut self) {
+        let mut index = 2;
+        while index < self.tokens.len() {
+            let along = ["along", "together"].contains(&self.at(index)) && self.at(index + 1) == "with";
+            let start = self.clause_start(index);
+            let first = (start..index).rev().find(|&at| self.is_order(at));
+            let place = first.and_then(|first| (first + 2..index).find(|&at| self.is_place(at)));
+            let end = (index + 3..index + 7).find(|&at| {
+                self.noun_before(at).is_some() && (self.is_mark(at) || ["and", "then"].contains(&self.at(at)))
+            });
+            if let (true, Some(place), Some(end)) = (along && is_determiner(self.at(index + 2)), place, end)
+                && self.noun_before(place).is_some()
+                && self.noun_before(index).is_some()
+            {
+                let mut company = vec!["and".to_owned()];
+                company.extend(self.words(index + 2..end));
+                self.say(index, end, &[]);
+                self.say_all(place, place, &company);
             }
             index += 1;
         }

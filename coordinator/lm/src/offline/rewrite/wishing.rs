@@ -94,7 +94,7 @@ impl Rewriting<'_> {
             let state = self.lexicon.adjective(&[self.at(index + length)]).is_some();
             let ends = self.is_mark(index + length + 1);
             if joins && who && state && ends && !self.is_mark(index - 1) {
-                let brought = self.brings(self.clause_start(index), index, index + length);
+                let brought = self.brings(index, index + length);
                 let wish: &[&str] = if self.at(index + 1) == "it" { &["it"] } else { &["they"] };
                 let word = self.at(index + length).to_owned();
                 self.say(index, index + length + 1, &[]);
@@ -107,21 +107,23 @@ impl Rewriting<'_> {
         }
     }
 
-    /// Whether something said before brings about the state that is named at a place, or the state is no such thing.
-    fn brings(&self, clause: usize, index: usize, state: usize) -> bool {
+    /// Whether something said before of the same thing brings about the state that is named at a place, or the state is
+    /// no such thing.
+    fn brings(&self, index: usize, state: usize) -> bool {
         let Some(state) = self.lexicon.adjective(&[self.at(state)]) else { return true };
-        let earlier = self.sentence_start(clause).saturating_sub(2 * LONGEST_ASIDE);
-        state.selects
-            || (earlier..index).any(|at| {
-                self.lexicon
-                    .verbs(self.at(at))
-                    .iter()
-                    .any(|(_, _, verb)| verb.set.keys().any(|property| state.set.contains_key(property)))
-                    || self
-                        .lexicon
-                        .adjective(&[self.at(at)])
-                        .is_some_and(|said| said.set.keys().any(|property| state.set.contains_key(property)))
-            })
+        let clause = self.clause_start(index);
+        let named = (clause..index).find_map(|at| self.noun_before(at).filter(|_| at > clause));
+        let mentioned = |noun: &Vec<String>| {
+            (0..clause.saturating_sub(noun.len() - 1)).any(|at| self.words(at..at + noun.len()) == *noun)
+        };
+        let alike = |property: &String| state.set.contains_key(property);
+        let said = |at: usize| {
+            self.lexicon.verbs(self.at(at)).iter().any(|(_, _, verb)| verb.set.keys().any(alike))
+                || self.lexicon.adjective(&[self.at(at)]).is_some_and(|said| said.set.keys().any(alike))
+        };
+        let pronoun = (clause..index).any(|at| ["it", "them", "both", "everything"].contains(&self.at(at)));
+        let earlier = if pronoun || named.as_ref().is_some_and(mentioned) { 0 } else { clause };
+        state.selects || (earlier..index).any(said)
     }
 
     /// "the cup the plate and the fork": a list without commas; "the kitchen's clock": the clock.
