@@ -76,7 +76,8 @@ fn tally(tally: &mut Tally, answer: &Answer, goal: &[GoalEntry], objects: &[Obje
     let decomposition = match answer {
         Answer::Understood(decomposition) => decomposition,
         Answer::Clarify(asks) => {
-            let about: BTreeSet<&str> = asks.not_understood.iter().map(|text| about(text)).collect();
+            let about: BTreeSet<String> =
+                asks.not_understood.iter().map(|text| told(text, objects)).collect();
             let wanted = by_class(&facts(goal, objects), objects);
             let about = about.into_iter().collect::<Vec<_>>().join(", ");
             let read = asks.readings.iter().map(|reading| reading.subtasks.len()).max().unwrap_or(0);
@@ -172,9 +173,19 @@ fn constructions(sentence: &str) -> String {
     format!("{} words, {commas} commas, {stops} stops: {}", words.len(), kinds.join(" "))
 }
 
+/// What kind of thing a question is about; of what cannot change, also what sort it is and what it lacks.
+fn told(text: &str, objects: &[ObjectView]) -> String {
+    let about = about(text);
+    let kind = text.split(['(', ')']).nth(1).filter(|_| text.contains(") is not "));
+    match (kind, text.rsplit(' ').next()) {
+        (Some(kind), Some(lacking)) => format!("{about} ({}, {lacking})", sort(kind, objects)),
+        _ => about.to_owned(),
+    }
+}
+
 /// What kind of thing a question is about.
 fn about(text: &str) -> &'static str {
-    const ABOUT: [(&str, &str); 15] = [
+    const ABOUT: [(&str, &str); 16] = [
         ("is not said what the slices", "slices of nothing"),
         ("is not said what the water", "water in nothing"),
         ("is not said what to do about", "a state told, not asked for"),
@@ -182,13 +193,14 @@ fn about(text: &str) -> &'static str {
         ("what \"them\" is", "a plural pronoun of nothing"),
         ("is not openable", "what does not open is to"),
         ("is not toggleable", "what has no switch is switched"),
-        ("is not ", "what cannot change so"),
         ("I do not know what \"", "a noun or verb unknown"),
         ("I do not know what to do", "no order found"),
         ("there is no ", "something absent"),
         ("it is not said where", "a place left out"),
         ("it is not said what", "a thing left out"),
         ("is forbidden, but", "a ban broken"),
+        ("is not said which", "which of them is left open"),
+        ("is not ", "what cannot change so"),
         ("cannot", "an impossible change"),
     ];
     ABOUT.iter().find(|(words, _)| text.contains(words)).map_or("something else", |(_, about)| about)

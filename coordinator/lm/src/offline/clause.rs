@@ -197,7 +197,11 @@ impl<'a> Parser<'a> {
         if let Some((_, word)) = doing {
             clause.objects.retain(|phrase| phrase.head != Head::Unknown(word.clone()));
         }
-        let no_thing = |&at: &usize| self.words[at] == "no" && self.longest_noun_at(at + 1).is_some();
+        let no_thing = |&at: &usize| {
+            let plain = |word: &String| self.lexicon.adjective(&[word]).is_some();
+            let adjective = usize::from(self.words.get(at + 1).is_some_and(plain));
+            self.words[at] == "no" && self.longest_noun_at(at + 1 + adjective).is_some()
+        };
         if (start..self.position.min(self.words.len())).any(|at| no_thing(&at)) {
             clause.deny();
         }
@@ -319,7 +323,11 @@ impl<'a> Parser<'a> {
             "do" if next == "not" => self.position > start,
             "never" | "if" => self.position > start,
             "." => true,
-            "," | "and" if self.is_complete(clause) && self.new_subject_follows() => true,
+            "," | "and"
+                if self.is_complete(clause) && (self.new_subject_follows() || self.fixed_state_follows()) =>
+            {
+                true
+            }
             "," if self.another_wish_follows(clause, start) => true,
             "," if only_pronouns(clause) && self.ahead_after_things().goal_follows() => true,
             "," | "and" if !self.switches && self.ahead_after_things().switched_follows() => true,

@@ -1,6 +1,6 @@
 //! What follows: looks ahead that tell whether a clause goes on.
 
-use super::super::syntax::{Clause, Relation, preposition};
+use super::super::syntax::{Clause, Head, Phrase, Relation, preposition};
 use super::Parser;
 
 impl<'a> Parser<'a> {
@@ -42,6 +42,18 @@ impl<'a> Parser<'a> {
         let things = ahead.position > joined.position;
         let state = ahead.state_told() || told && ahead.switched_follows();
         things && (wished && self.is_complete(clause) && state || told && (state || ahead.goal_follows()))
+    }
+
+    /// "put the fork in the drawer, the stove cold": whether what cannot be carried is told here as it shall be.
+    pub(super) fn fixed_state_follows(&self) -> bool {
+        let mut ahead = self.ahead(0);
+        ahead.skip_joins();
+        let things = ahead.phrases(0);
+        let fixed = |phrase: &Phrase| matches!(phrase.head, Head::Noun(_)) && !self.is_movable(phrase);
+        let state = ahead.state_told() || ahead.switched_follows();
+        let behind = if state { ahead.word_at(1) } else { None };
+        let ends = behind.is_none_or(|word| [",", ".", "and", "then", "while", "before"].contains(&word));
+        !things.is_empty() && things.iter().all(fixed) && state && ends
     }
 
     /// Whether it is said here what something is beside.

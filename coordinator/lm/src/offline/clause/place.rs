@@ -183,7 +183,7 @@ impl<'a> Parser<'a> {
             let another_pair = self.switched_follows()
                 || filled
                 || told
-                || self.state_told() && self.is_openable(&phrase)
+                || self.state_told() && (self.is_openable(&phrase) || !self.is_movable(&phrase))
                 || (!clause.complement.is_empty() || clause.verbs.is_empty()) && self.state_told()
                 || relation != Relation::From
                     && !(relation == Relation::With && self.wants_place && clause.places.len() == 1)

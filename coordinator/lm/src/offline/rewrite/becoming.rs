@@ -25,6 +25,7 @@ impl Rewriting<'_> {
                 || self.water_runs(index)
                 || self.filled_with_things(index)
                 || self.made_into_slices(index)
+                || self.in_a_position(index)
                 || self.until_full(index)
                 || self.let_cool(index);
             index += 1;
@@ -244,11 +245,16 @@ impl Rewriting<'_> {
         false
     }
 
-    /// "fill the bowl with all the slices": put them in it.
+    /// "fill the bowl with all the slices", "loading the pan with the potato and the egg": put them in it.
     fn filled_with_things(&mut self, index: usize) -> bool {
+        const FILL: [&str; 9] = ["fill", "load", "pile", "heap", "pack", "stack", "stuff", "top", "cover"];
+        const FILLING: [&str; 6] = ["filling", "loading", "piling", "heaping", "packing", "stacking"];
+        let gerund = FILLING.contains(&self.at(index));
         let with = (index + 2..index + 6).find(|&at| self.at(at) == "with");
         let Some(with) = with.filter(|&with| {
-            self.at(index) == "fill" && is_determiner(self.at(index + 1)) && self.noun_before(with).is_some()
+            (gerund || FILL.contains(&self.at(index)))
+                && is_determiner(self.at(index + 1))
+                && self.noun_before(with).is_some()
         }) else {
             return false;
         };
@@ -256,12 +262,13 @@ impl Rewriting<'_> {
             .find(|&at| self.is_mark(at) || ["then", "and"].contains(&self.at(at)) && self.is_order(at + 1))
             .unwrap_or(with);
         let end = end - usize::from(self.at(end - 1) == "and");
-        let slices =
-            ["slices", "pieces", "slice", "piece", "them", "both", "everything"].contains(&self.at(end - 1));
-        if !slices {
+        let parts = ["slices", "pieces", "slice", "piece", "them", "both", "everything"].contains(&self.at(end - 1));
+        let things = self.names_only(with + 1, end)
+            && !(with + 1..end).any(|at| LIQUIDS.contains(&self.at(at)));
+        if !parts && !things {
             return false;
         }
-        let mut order = vec!["put".to_owned()];
+        let mut order = vec![if gerund { "putting" } else { "put" }.to_owned()];
         order.extend(self.words(with + 1..end));
         order.push("in".to_owned());
         order.extend(self.words(index + 1..with));
@@ -288,6 +295,18 @@ impl Rewriting<'_> {
         self.say(into, into + 2, &[]);
         self.say(index, index + 1, &["slice"]);
         true
+    }
+
+    /// "set the switch to the off position": to off.
+    fn in_a_position(&mut self, index: usize) -> bool {
+        let to = ["to", "in", "into"].contains(&self.at(index)) && self.at(index + 1) == "the";
+        let state = ["off", "on"].contains(&self.at(index + 2));
+        let position = to && state && ["position", "setting"].contains(&self.at(index + 3));
+        if position {
+            let state = self.at(index + 2).to_owned();
+            self.say(index, index + 4, &["to", &state]);
+        }
+        position
     }
 
     /// "hold the cup under the tap until it is full", "run the tap into the mug": fill it.

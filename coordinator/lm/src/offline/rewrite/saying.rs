@@ -393,9 +393,28 @@ impl Rewriting<'_> {
                 || is_going(behind);
             if all && (person || being) && past && ends {
                 self.say(index, closes, &["all", "of", "them"]);
+            } else if let Some(closes) = self.done_before(index).filter(|_| all) {
+                self.say(index, closes, &["all", "of", "them"]);
             }
             index += 1;
         }
+    }
+
+    /// "(everything) sliced", "(all) that was washed", where that was asked for before: where the words end.
+    fn done_before(&self, index: usize) -> Option<usize> {
+        let that = usize::from(["that", "which"].contains(&self.at(index + 1)));
+        let being = (index + 1 + that..)
+            .take_while(|&at| ["is", "was", "has", "been", "got", "just", "being"].contains(&self.at(at)))
+            .count();
+        let done = index + 1 + that + being;
+        let bases = crate::offline::inflect::bases(self.at(done));
+        let said = bases.iter().any(|(base, _)| (0..index).any(|at| self.at(at) == base));
+        let behind = self.at(done + 1);
+        let ends = self.is_mark(done + 1)
+            || preposition(&[behind]).is_some()
+            || SHALL.contains(&behind)
+            || is_going(behind);
+        (self.is_verb(done, VerbForm::Past) && said && ends).then_some(done + 1)
     }
 
     /// "the bowl which you then put in the fridge": put the bowl in the fridge.

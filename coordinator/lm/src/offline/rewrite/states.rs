@@ -48,17 +48,21 @@ impl Rewriting<'_> {
         }
     }
 
-    /// "with the stove left cold": with the stove cold.
+    /// "with the stove left cold", ", the stove going cold": the stove cold.
     pub(super) fn left_so(&mut self) {
         for index in 1..self.tokens.len() {
-            let with = (self.clause_start(index)..index).any(|at| self.at(at) == "with");
-            let state = self.lexicon.adjective(&[self.at(index + 1)]).is_some();
-            if ["left", "kept"].contains(&self.at(index))
-                && with
-                && state
-                && self.noun_before(index).is_some()
-            {
-                self.say(index, index + 1, &[]);
+            let start = self.clause_start(index);
+            let with = (start..index).any(|at| self.at(at) == "with");
+            let first = start + usize::from(self.at(start) == "and");
+            let alone = start > 0 && self.names_only(first, index);
+            let length = match (self.at(index), self.at(index + 1)) {
+                ("having", "been") => 2,
+                ("left" | "kept" | "going" | "being" | "staying", _) => 1,
+                _ => 0,
+            };
+            let state = self.lexicon.adjective(&[self.at(index + length)]).is_some();
+            if length > 0 && (with || alone) && state && self.noun_before(index).is_some() {
+                self.say(index, index + length, &[]);
             }
         }
     }
