@@ -319,6 +319,10 @@ impl Parser<'_> {
             _ => false,
         };
         while why && self.peek().is_some_and(|word| word != "." && word != ",") {
+            // "so it heats up and turn off the light": an order again.
+            if self.peek() == Some("and") && self.another_verb_follows() {
+                break;
+            }
             self.position += 1;
         }
         why

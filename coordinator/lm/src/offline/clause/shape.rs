@@ -19,9 +19,9 @@ pub fn goes_somewhere(clause: &Clause<'_>) -> bool {
 
 /// "the fork goes in the drawer", "the bat leans on the wall": verbs of where things are to be.
 pub fn is_going(word: &str) -> bool {
-    const GOING: [&str; 13] = [
+    const GOING: [&str; 15] = [
         "goes", "go", "belongs", "belong", "leans", "lean", "stays", "stay", "hangs", "moves", "move",
-        "comes", "come",
+        "comes", "come", "lands", "land",
     ];
     GOING.contains(&word)
 }

@@ -98,6 +98,13 @@ impl<'a> Interpreter<'_, 'a> {
             fact.change != Change::Held
                 || !entities[fact.entity].kinds.iter().any(|kind| verb.tools.contains(kind))
         });
+        // "take a knife and slice the bread, then put everything in the pot": not the knife.
+        let tool = |e: &usize| entities[*e].kinds.iter().any(|kind| verb.tools.contains(kind));
+        for spoken in self.discourse.spoken.iter_mut().rev().take(2) {
+            if !spoken.placed && !spoken.objects.is_empty() && spoken.objects.iter().all(tool) {
+                spoken.reached.append(&mut spoken.objects);
+            }
+        }
     }
 
     /// "turn on the lamp with a book in hand": the book is held.

@@ -138,7 +138,7 @@ impl Discourse<'_> {
         if let Some([only]) = last.map(|spoken| spoken.objects.as_slice())
             && self.entities[*only].asked.contains_key("isSliced")
         {
-            return vec![*only];
+            return self.slices(true);
         }
         let groups: Vec<&[usize]> = match last {
             Some(spoken) if spoken.objects.len() > 1 => vec![&spoken.objects],

@@ -76,14 +76,14 @@ impl Parser<'_> {
         }
         let pronoun =
             self.peek().is_some_and(|word| ["each", "both", "they", "it", "these", "those"].contains(&word));
-        if !pronoun && !of_contents {
+        let mut ahead = self.ahead(0);
+        let Some(first) = ahead.phrase(DEEPEST) else { return false };
+        if !pronoun && !of_contents && first.head != Head::Slices {
             return false;
         }
-        let mut ahead = self.ahead(0);
-        ahead.phrase(DEEPEST).is_some()
-            && ahead.peek().is_some_and(|word| {
-                is_going(word) || ["should", "must", "need", "needs", "is", "are"].contains(&word)
-            })
+        ahead.peek().is_some_and(|word| {
+            is_going(word) || ["should", "must", "need", "needs", "is", "are"].contains(&word)
+        })
     }
 
     /// "slice the potato, and the pot should be on the stove": what comes next is not done to the pot. Behind a comma

@@ -66,7 +66,7 @@ impl Rewriting<'_> {
             .any(|at| ["i", "we"].contains(&self.at(at)) && ["want", "need"].contains(&self.at(at + 1)));
         let told = (from + 1..from + 5).any(|at| {
             self.noun_before(at).is_some()
-                && (["should", "must"].contains(&self.at(at)) || is_going(self.at(at)))
+                && (["should", "must", "needs", "has"].contains(&self.at(at)) || is_going(self.at(at)))
         });
         let ordered = self.is_order(from) || self.at(from) == "then" || told;
         joined && (preposition(&[self.at(from)]).is_some() && self.at(from) != "of" || person || ordered)

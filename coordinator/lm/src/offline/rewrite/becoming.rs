@@ -1,11 +1,9 @@
 //! What something becomes, said by "gets", "goes" and "has", as what it should be.
 
 use super::Rewriting;
+use super::liquids::LIQUIDS;
 use crate::offline::clause::is_going;
 use crate::offline::syntax::is_determiner;
-
-/// Liquids that a vessel may get.
-const LIQUIDS: [&str; 3] = ["water", "coffee", "wine"];
 
 impl Rewriting<'_> {
     /// "the bread gets sliced", "each cup gets water", "the light goes off", "all of it needs to go into the pot".
@@ -17,16 +15,12 @@ impl Rewriting<'_> {
             let _ = subject
                 && (self.gets_so(index)
                     || self.needs_a_wash(index)
-                    || self.has_in_it(index)
                     || self.goes_so(index)
                     || self.rests(index))
                 || self.having_it_somewhere(index)
-                || self.given_a_liquid(index)
-                || self.water_runs(index)
-                || self.filled_with_things(index)
-                || self.made_into_slices(index)
                 || self.in_a_position(index)
-                || self.until_full(index)
+                || self.darkened(index)
+                || self.given_a_wash(index)
                 || self.let_cool(index);
             index += 1;
         }
@@ -87,53 +81,6 @@ impl Rewriting<'_> {
         false
     }
 
-    /// "should have coffee in it", "needs water": should be filled with it.
-    fn has_in_it(&mut self, index: usize) -> bool {
-        let has = match (self.at(index), self.at(index + 1)) {
-            ("should" | "must" | "shall", "have" | "contain") => 2,
-            ("needs" | "need", "to") if self.at(index + 2) == "have" => 3,
-            ("needs" | "need" | "wants", _) => 1,
-            _ => return false,
-        };
-        let some = usize::from(["some", "fresh", "hot"].contains(&self.at(index + has)));
-        let liquid = index + has + some;
-        let inside = 2 * usize::from(
-            ["in", "inside"].contains(&self.at(liquid + 1)) && ["it", "them"].contains(&self.at(liquid + 2)),
-        );
-        let ends = self.is_mark(liquid + 1 + inside)
-            || ["and", "before", "while", "then", "after"].contains(&self.at(liquid + 1 + inside));
-        if !LIQUIDS.contains(&self.at(liquid)) || !ends {
-            return false;
-        }
-        let liquid_word = self.at(liquid).to_owned();
-        self.say(index, liquid + 1 + inside, &["should", "be", "filled", "with", &liquid_word]);
-        true
-    }
-
-    /// "let water run into the cup": run it in; "use the coffee machine to fill the cup": fill it with coffee.
-    fn water_runs(&mut self, index: usize) -> bool {
-        let the = usize::from(self.at(index + 1) == "the");
-        if self.at(index) == "let"
-            && self.at(index + 1 + the) == "water"
-            && self.at(index + 2 + the) == "run"
-            && ["into", "in"].contains(&self.at(index + 3 + the))
-        {
-            self.say(index, index + 3 + the, &["pour", "water"]);
-            return true;
-        }
-        let brewed = ["use", "using"].contains(&self.at(index))
-            && self.at(index + 2) == "coffee"
-            && self.starts(index + 4, &["to", "fill"]);
-        if brewed {
-            let end = (index + 6..)
-                .find(|&at| self.is_mark(at) || ["and", "then", "before", "while"].contains(&self.at(at)));
-            let end = end.unwrap_or(index + 6);
-            self.say(end, end, &["with", "coffee"]);
-            self.say(index, index + 5, &[]);
-        }
-        brewed
-    }
-
     /// "goes off", "can go out", "must not run": should be off; "needs to go into the pot": should go there; "comes out
     /// onto the counter": comes onto it.
     fn goes_so(&mut self, index: usize) -> bool {
@@ -149,6 +96,13 @@ impl Rewriting<'_> {
         if goes(self.at(verb)) && ["off", "on", "out", "dark"].contains(&state.as_str()) && ends {
             let state = if state == "dark" { "off" } else { &state };
             self.say(index, verb + 2, &["should", "be", state]);
+        } else if shall && self.starts(index + 1, &["be", "going"]) {
+            self.say(index + 2, index + 3, &["on"]);
+        } else if shall
+            && self.at(index + 1) == "run"
+            && (self.is_mark(index + 2) || self.at(index + 2) == "and")
+        {
+            self.say(index + 1, index + 2, &["be", "on"]);
         } else if shall
             && self.at(index + 1) == "not"
             && ["run", "burn", "shine"].contains(&self.at(index + 2))
@@ -189,7 +143,9 @@ impl Rewriting<'_> {
         let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
         let all_of =
             usize::from(["all", "both"].contains(&self.at(index + 1)) && self.at(index + 2) == "of") * 2;
-        let them = ["it", "them", "both", "that", "all", "those"].contains(&self.at(index + 1 + all_of));
+        let all_of = if ["slice", "slices", "pieces"].contains(&self.at(index + 2)) { 1 } else { all_of };
+        let them = ["it", "them", "both", "that", "all", "those", "slice", "slices", "pieces"]
+            .contains(&self.at(index + 1 + all_of));
         let place = index + 2 + all_of;
         let there = ["in", "on", "into", "onto", "inside"].contains(&self.at(place));
         if opens && ["have", "get"].contains(&self.at(index)) && them && there {
@@ -219,119 +175,78 @@ impl Rewriting<'_> {
         shall
     }
 
-    /// "give the pot some water", "have the cup holding water": fill it.
-    fn given_a_liquid(&mut self, index: usize) -> bool {
-        if ["give", "giving"].contains(&self.at(index)) && is_determiner(self.at(index + 1)) {
-            let noun = (index + 3..index + 6).find(|&end| self.noun_before(end).is_some());
-            let amount = |at: usize| match (self.at(at), self.at(at + 1), self.at(at + 2)) {
-                ("a", "bit" | "drop" | "splash" | "little", "of") => 3,
-                ("a", "little", _) => 2,
-                ("some" | "fresh" | "its" | "their", _, _) => 1,
-                _ => 0,
-            };
-            if let Some(end) = noun.filter(|&end| LIQUIDS.contains(&self.at(end + amount(end)))) {
-                self.say(end, end + amount(end), &["with"]);
-                self.say(index, index + 1, &["fill"]);
-                return true;
-            }
-        } else if ["holding", "hold"].contains(&self.at(index))
-            && LIQUIDS.contains(&self.at(index + 1))
-            && self.noun_before(index).is_some()
-            && (self.clause_start(index)..index).any(|at| ["have", "let"].contains(&self.at(at)))
-        {
-            self.say(index, index + 1, &["filled", "with"]);
-            return true;
-        }
-        false
-    }
-
-    /// "fill the bowl with all the slices", "loading the pan with the potato and the egg": put them in it.
-    fn filled_with_things(&mut self, index: usize) -> bool {
-        const FILL: [&str; 9] = ["fill", "load", "pile", "heap", "pack", "stack", "stuff", "top", "cover"];
-        const FILLING: [&str; 6] = ["filling", "loading", "piling", "heaping", "packing", "stacking"];
-        let gerund = FILLING.contains(&self.at(index));
-        let with = (index + 2..index + 6).find(|&at| self.at(at) == "with");
-        let Some(with) = with.filter(|&with| {
-            (gerund || FILL.contains(&self.at(index)))
-                && is_determiner(self.at(index + 1))
-                && self.noun_before(with).is_some()
-        }) else {
-            return false;
-        };
-        let end = (with + 1..)
-            .find(|&at| self.is_mark(at) || ["then", "and"].contains(&self.at(at)) && self.is_order(at + 1))
-            .unwrap_or(with);
-        let end = end - usize::from(self.at(end - 1) == "and");
-        let parts = ["slices", "pieces", "slice", "piece", "them", "both", "everything"].contains(&self.at(end - 1));
-        let things = self.names_only(with + 1, end)
-            && !(with + 1..end).any(|at| LIQUIDS.contains(&self.at(at)));
-        if !parts && !things {
-            return false;
-        }
-        let mut order = vec![if gerund { "putting" } else { "put" }.to_owned()];
-        order.extend(self.words(with + 1..end));
-        order.push("in".to_owned());
-        order.extend(self.words(index + 1..with));
-        self.say_all(index, end, &order);
-        true
-    }
-
-    /// "turn the apple and the bread into slices": slice them.
-    fn made_into_slices(&mut self, index: usize) -> bool {
-        let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
-        let end = self.next_mark(index, &[",", "."]);
-        let into = (index + 2..end).find(|&at| {
-            self.at(at) == "into"
-                && ["slices", "pieces", "chunks", "cubes", "wedges"].contains(&self.at(at + 1))
-        });
-        let Some(into) = into.filter(|&into| {
-            opens
-                && ["turn", "make"].contains(&self.at(index))
-                && self.noun_before(into).is_some()
-                && !(index + 1..into).any(|at| self.is_order(at))
-        }) else {
-            return false;
-        };
-        self.say(into, into + 2, &[]);
-        self.say(index, index + 1, &["slice"]);
-        true
-    }
-
     /// "set the switch to the off position": to off.
     fn in_a_position(&mut self, index: usize) -> bool {
         let to = ["to", "in", "into"].contains(&self.at(index)) && self.at(index + 1) == "the";
         let state = ["off", "on"].contains(&self.at(index + 2));
         let position = to && state && ["position", "setting"].contains(&self.at(index + 3));
+        let start = self.clause_start(index);
+        let turned =
+            (start..index).any(|at| ["turn", "switch", "flip", "turned", "switched"].contains(&self.at(at)));
         if position {
             let state = self.at(index + 2).to_owned();
             self.say(index, index + 4, &["to", &state]);
         }
-        position
+        // "turn the toaster to on"
+        let to = self.at(index) == "to" && ["on", "off"].contains(&self.at(index + 1)) && turned;
+        if to {
+            self.say(index, index + 1, &[]);
+        }
+        position || to
     }
 
-    /// "hold the cup under the tap until it is full", "run the tap into the mug": fill it.
-    fn until_full(&mut self, index: usize) -> bool {
-        const TAPS: [&str; 3] = ["tap", "faucet", "water"];
-        let until = ["until", "till"].contains(&self.at(index));
-        let is = match (self.at(index + 1), self.at(index + 2)) {
-            ("it" | "they", "is" | "are") => 2,
-            ("its" | "theyre" | "it", _) => 1,
+    /// "give the plate, the mug and the bowl a wash": wash them; "do the washing up: the plate, …": wash those.
+    fn given_a_wash(&mut self, index: usize) -> bool {
+        const WASHES: [&str; 6] = ["wash", "rinse", "clean", "scrub", "wipe", "cleaning"];
+        let end = self.next_mark(index + 1, &["."]);
+        let a = (index + 3..end.min(index + 16)).find(|&at| {
+            self.at(at) == "a"
+                && (WASHES.contains(&self.at(at + 1))
+                    || ["good", "quick", "proper", "thorough"].contains(&self.at(at + 1))
+                        && WASHES.contains(&self.at(at + 2)))
+        });
+        let doing = match (self.at(index), self.at(index + 1), self.at(index + 2), self.at(index + 3)) {
+            ("do", "the", "washing", "up") => 4,
+            ("do", "the", "dishes", _) => 3,
             _ => 0,
         };
-        let full = index + 1 + is;
-        let start = self.clause_start(index);
-        let held = ["hold", "put", "keep", "place", "leave"].contains(&self.at(start));
-        let under = (start..index).find(|&at| self.at(at) == "under" || self.at(at) == "beneath");
-        let tap = under.is_some_and(|at| (at..index).any(|at| TAPS.contains(&self.at(at))));
-        if until && ["full", "filled"].contains(&self.at(full)) && held && tap {
-            self.say(under.unwrap_or(index), full + 1, &[]);
-            self.say(start, start + 1, &["fill"]);
-        } else if self.at(index) == "run"
-            && is_determiner(self.at(index + 1))
-            && TAPS.contains(&self.at(index + 2))
-            && ["into", "in"].contains(&self.at(index + 3))
-        {
-            self.say(index, index + 4, &["fill"]);
+        let listed = doing > 0
+            && self.tokens.get(index + doing).is_some_and(|token| token.typed == ":")
+            && is_determiner(self.at(index + doing + 1));
+        if listed {
+            self.say(index, index + doing + 1, &["wash"]);
+            return true;
+        }
+        let Some(a) = a.filter(|&a| self.at(index) == "give" && self.names_only(index + 1, a)) else {
+            return false;
+        };
+        let good = usize::from(!WASHES.contains(&self.at(a + 1)));
+        let doing = self.at(a + 1 + good).to_owned();
+        let doing = if doing == "cleaning" { "clean" } else { &doing };
+        self.say(a, a + 2 + good, &[]);
+        self.say(index, index + 1, &[doing]);
+        true
+    }
+
+    /// "darken the kitchen", "the room should be dark": the lights off; "bring the stove to life": turn it on.
+    fn darkened(&mut self, index: usize) -> bool {
+        let room = is_determiner(self.at(index + 1)) && self.lexicon.is_small("rooms", &[self.at(index + 2)]);
+        let darkens = ["darken", "darkening"].contains(&self.at(index));
+        let left = ["leave", "keep", "make", "have", "get"].contains(&self.at(index))
+            && self.at(index + 3) == "dark";
+        let here = is_determiner(self.at(index)) && self.lexicon.is_small("rooms", &[self.at(index + 1)]);
+        let told = here
+            && ["should", "must", "shall"].contains(&self.at(index + 2))
+            && ["be", "stay"].contains(&self.at(index + 3))
+            && self.at(index + 4) == "dark";
+        let life = (index + 3..index + 7).find(|&at| self.starts(at, &["to", "life"]));
+        if room && (darkens || left) {
+            self.say(index, index + 3 + usize::from(left), &["turn", "off", "the", "lights"]);
+        } else if told {
+            self.say(index, index + 5, &["the", "lights", "should", "be", "off"]);
+        } else if let Some(life) = life.filter(|_| self.at(index) == "bring") {
+            self.say(life, life + 2, &[]);
+            self.say(index, index + 1, &["turn", "on"]);
         } else {
             return false;
         }

@@ -61,43 +61,12 @@ impl Rewriting<'_> {
         }
     }
 
-    /// "all of the pieces go …", "every piece of either goes …": the slices go there.
-    fn all_of_the_slices(&mut self, index: usize) {
-        let all = ["all", "every", "each", "both", "any"].contains(&self.at(index));
-        let of_the = match (self.at(index + 1), self.at(index + 2)) {
-            ("of", "the" | "these" | "those") => 2,
-            ("the" | "these" | "those" | "single", _) => 1,
-            _ => 0,
-        };
-        let part = index + 1 + of_the;
-        let parts = self.lexicon.is_small("slices", &[self.at(part).trim_end_matches('s')])
-            || self.at(part) == "halves";
-        let of_it = if self.at(part + 1) == "of"
-            && ["it", "them", "either", "each", "both", "these", "those", "that"].contains(&self.at(part + 2))
-        {
-            2
-        } else {
-            0
-        };
-        let end = part + 1 + of_it;
-        let goes = is_going(self.at(end)) || ["should", "must", "needs", "need"].contains(&self.at(end));
-        if all && parts && of_the + of_it > 0 && goes {
-            self.say(index, end, &["the", "slices"]);
-            if is_going(self.at(index + 2)) && self.at(index + 2).ends_with('s') {
-                self.say(index + 2, index + 3, &["go"]);
-            }
-        }
-    }
-
     /// "a slice goes in the toaster": put it there; "when cooked put on plate": then put it there; "into the fridge with the
     /// egg": put it there; "the mug then goes …": it goes there.
     pub(super) fn orders_in_disguise(&mut self) {
         let mut index = 0;
         while index < self.tokens.len() {
             let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
-            if opens {
-                self.all_of_the_slices(index);
-            }
             let sliced = ["slice", "slices", "piece", "pieces"].contains(&self.at(index + 1));
             let counted = is_determiner(self.at(index)) || number(self.at(index)).is_some();
             if opens && counted && sliced && is_going(self.at(index + 2)) && self.is_place(index + 3) {

@@ -87,7 +87,7 @@ impl Rewriting<'_> {
                 && next == "to"
                 && (resting(self.at(index + 2))
                     || ["hold", "contain"].contains(&self.at(index + 2))
-                    || word == "is" && self.at(index + 2) == "go"
+                    || ["is", "are"].contains(&word) && self.at(index + 2) == "go"
                     || self.at(index + 2) == "be"
                         && (preposition(&[self.at(index + 3)]).is_some() || self.at(index + 3) == "there"))
             {
@@ -317,7 +317,9 @@ impl Rewriting<'_> {
                     || (2..5).any(|at| ["slice", "slices", "pieces"].contains(&self.at(index + shall + at))));
             let holds = gets
                 || ["contain", "contains", "hold", "holds"].contains(&self.at(index + shall))
-                    && (is_determiner(self.at(index + shall + 1)) || shall == 1);
+                    && (is_determiner(self.at(index + shall + 1))
+                        || shall == 1
+                        || ["water", "coffee", "wine"].contains(&self.at(index + shall + 1)));
             let told_apart = ["other", "former", "latter"].contains(&self.at(index - 1)) && gets;
             let vessel = self.noun_before(index).map_or(usize::from(told_apart), |noun| noun.len());
             let mut first = index - vessel;

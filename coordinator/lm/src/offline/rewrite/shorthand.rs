@@ -194,7 +194,17 @@ impl Rewriting<'_> {
         for index in 0..self.tokens.len() {
             let end = self.next_mark(index, &["."]);
             let but = (index + 2..end).find(|&at| self.at(at) == "but");
-            if let Some(but) = but.filter(|_| self.starts(index, &["not", "only"])) {
+            // "make sure that both …"
+            if index > 0
+                && self.at(index) == "that"
+                && ["sure", "ensure", "certain", "see", "check"].contains(&self.at(index - 1))
+                && ["both", "all", "every", "each"].contains(&self.at(index + 1))
+            {
+                self.say(index, index + 1, &[]);
+            }
+            let only =
+                self.at(index) == "not" && ["only", "just", "merely", "simply"].contains(&self.at(index + 1));
+            if let Some(but) = but.filter(|_| only) {
                 let also = usize::from(self.at(but + 1) == "also");
                 self.say(but, but + 1 + also, &["and"]);
                 self.say(index, index + 2, &[]);

@@ -107,8 +107,13 @@ impl Rewriting<'_> {
                 let list = self.words(opens + 1..closes);
                 let after = usize::from(self.tokens.get(closes).is_some_and(|token| token.text == ","));
                 self.say(opens, closes + after, &[]);
-                self.say_all(index, index + length, &list);
-                index += list.len();
+                // "all of these go in the sink: …"
+                let all = index > 1
+                    && self.at(index - 1) == "of"
+                    && ["all", "each", "both"].contains(&self.at(index - 2));
+                let first = index - 2 * usize::from(all);
+                self.say_all(first, index + length, &list);
+                index = first + list.len();
             }
             index += 1;
         }

@@ -1,0 +1,243 @@
+//! What is done with all that was cut, or with all at once: "every piece of either goes …", "load the pan with the
+//! slices", "the bowl is where the slices go", "turn the apple into slices".
+
+use super::liquids::LIQUIDS;
+use super::{Rewriting, SHALL};
+use crate::offline::clause::is_going;
+use crate::offline::syntax::is_determiner;
+
+impl Rewriting<'_> {
+    /// All of them.
+    pub(super) fn slices(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
+            if opens {
+                let _ = self.where_they_go(index) || self.are_put(index) || self.all_of_the_slices(index);
+                let _ = self.tipped_in(index) || self.used_to_hold(index) || self.by_cutting(index);
+            }
+            self.sliced_things(index);
+            let _ = self.filled_with_things(index) || self.made_into_slices(index);
+            index += 1;
+        }
+    }
+
+    /// Whether a word names parts of what was cut.
+    fn is_part(&self, at: usize) -> bool {
+        self.lexicon.is_small("slices", &[self.at(at).trim_end_matches('s')]) || self.at(at) == "halves"
+    }
+
+    /// Where the words for all the slices end that begin here: "all of the slices", "each slice".
+    fn all_parts(&self, index: usize) -> Option<usize> {
+        let counted = ["all", "every", "each", "both", "any", "the"].contains(&self.at(index));
+        let end = (index + 1..index + 5).find(|&at| self.is_part(at))? + 1;
+        let plain = (index + 1..end - 1)
+            .all(|at| ["of", "the", "these", "those", "single", "and", "every"].contains(&self.at(at)));
+        (counted && plain).then_some(end)
+    }
+
+    /// "the bowl is where all the slices go", "the bowl is for the slices": put them in it.
+    fn where_they_go(&mut self, index: usize) -> bool {
+        let is = (index + 2..index + 5).find(|&at| self.at(at) == "is" && self.noun_before(at).is_some());
+        let Some(is) = is.filter(|_| is_determiner(self.at(index))) else { return false };
+        let (there, for_them) = (self.at(is + 1) == "where", self.at(is + 1) == "for");
+        let end = (is + 3..is + 9).find(|&at| {
+            self.is_mark(at)
+                || ["and", "then"].contains(&self.at(at))
+                || is_going(self.at(at))
+                || self.at(at) == "should"
+        });
+        let Some(end) = end
+            .filter(|&end| (there || for_them) && (self.noun_before(end).is_some() || self.is_part(end - 1)))
+        else {
+            return false;
+        };
+        let goes = usize::from(is_going(self.at(end))) + 2 * usize::from(self.at(end) == "should");
+        if there && goes == 0 || for_them && !self.is_part(end - 1) {
+            return false;
+        }
+        let mut order = vec!["put".to_owned()];
+        order.extend(self.words(is + 2..end));
+        order.push("in".to_owned());
+        order.extend(self.words(index..is));
+        self.say_all(index, end + goes, &order);
+        true
+    }
+
+    /// "all the sliced food", where something was to be sliced: its slices.
+    fn sliced_things(&mut self, index: usize) -> bool {
+        const THINGS: [&str; 8] =
+            ["food", "foods", "ingredients", "vegetables", "fruit", "stuff", "things", "items"];
+        let the = usize::from(["the", "of"].contains(&self.at(index + 1)));
+        let cut = index + 1 + the;
+        let all = ["all", "the", "every", "both"].contains(&self.at(index));
+        let sliced =
+            self.lexicon.adjective(&[self.at(cut)]).is_some_and(|state| state.set.contains_key("isSliced"));
+        let before = (0..index).any(|at| {
+            self.lexicon.verbs(self.at(at)).iter().any(|(_, _, verb)| verb.set.contains_key("isSliced"))
+        });
+        let things = all && sliced && before && THINGS.contains(&self.at(cut + 1));
+        if things {
+            self.say(index, cut + 2, &["all", "the", "slices"]);
+        }
+        things
+    }
+
+    /// ", each slice placed in the bowl": put each there.
+    fn are_put(&mut self, index: usize) -> bool {
+        const PUT: [&str; 9] =
+            ["placed", "put", "dropped", "tossed", "thrown", "moved", "set", "laid", "gathered"];
+        let Some(end) = self.all_parts(index) else { return false };
+        let put = PUT.contains(&self.at(end)) && self.is_place(end + 1);
+        // "every slice into the pot"
+        let behind = self.next_mark(end, &[",", "."]);
+        let alone = ["into", "onto", "in", "on"].contains(&self.at(end))
+            && !(end..behind).any(|at| is_going(self.at(at)) || SHALL.contains(&self.at(at)));
+        if put || alone {
+            self.say(end, end + usize::from(put), &[]);
+            self.say(index, index, &["put"]);
+        }
+        put || alone
+    }
+
+    /// "all of the pieces go …", "every piece of either goes …": the slices go there.
+    fn all_of_the_slices(&mut self, index: usize) -> bool {
+        let all = ["all", "every", "each", "both", "any"].contains(&self.at(index));
+        let of_the = match (self.at(index + 1), self.at(index + 2)) {
+            ("of", "the" | "these" | "those") => 2,
+            ("the" | "these" | "those" | "single", _) => 1,
+            _ => 0,
+        };
+        let part = index + 1 + of_the;
+        let parts = self.lexicon.is_small("slices", &[self.at(part).trim_end_matches('s')])
+            || self.at(part) == "halves";
+        let of_it = if self.at(part + 1) == "of"
+            && ["it", "them", "either", "each", "both", "these", "those", "that"].contains(&self.at(part + 2))
+        {
+            2
+        } else {
+            0
+        };
+        let end = part + 1 + of_it;
+        let goes = is_going(self.at(end))
+            || ["should", "must", "needs", "need"].contains(&self.at(end))
+            || ["is", "are"].contains(&self.at(end)) && self.at(end + 1) == "to";
+        let told = all && parts && of_the + of_it > 0 && goes;
+        if told {
+            self.say(index, end, &["the", "slices"]);
+            if is_going(self.at(index + 2)) && self.at(index + 2).ends_with('s') {
+                self.say(index + 2, index + 3, &["go"]);
+            }
+        }
+        told
+    }
+
+    /// "tip all the slices into the pot": put them in.
+    fn tipped_in(&mut self, index: usize) -> bool {
+        const TIP: [&str; 10] =
+            ["pour", "empty", "tip", "sweep", "scrape", "shake", "brush", "tumble", "slide", "keep"];
+        let end = self.all_parts(index + 1).or_else(|| {
+            let all_of_it = self.starts(index + 1, &["all", "of", "it"]) as usize * 3;
+            let them = usize::from(["them", "everything"].contains(&self.at(index + 1)));
+            (all_of_it + them > 0).then_some(index + 1 + all_of_it + them)
+        });
+        let into = end.is_some_and(|end| ["into", "onto", "in", "on", "inside"].contains(&self.at(end)));
+        let tips = into && TIP.contains(&self.at(index));
+        if tips {
+            self.say(index, index + 1, &["put"]);
+        }
+        tips
+    }
+
+    /// "use the bowl to hold every slice": put every slice in it.
+    fn used_to_hold(&mut self, index: usize) -> bool {
+        let to = (index + 2..index + 6).find(|&at| self.at(at) == "to" && self.noun_before(at).is_some());
+        let Some(to) = to.filter(|_| self.at(index) == "use" && is_determiner(self.at(index + 1))) else {
+            return false;
+        };
+        let holds = ["hold", "store", "collect", "contain", "keep", "gather"].contains(&self.at(to + 1));
+        let end = (to + 2..)
+            .find(|&at| self.is_mark(at) || ["and", "then"].contains(&self.at(at)) && self.is_order(at + 1))
+            .unwrap_or(to);
+        if !holds || end <= to + 2 {
+            return false;
+        }
+        let mut order = vec!["put".to_owned()];
+        order.extend(self.words(to + 2..end));
+        order.push("in".to_owned());
+        order.extend(self.words(index + 1..to));
+        self.say_all(index, end, &order);
+        true
+    }
+
+    /// "prepare the apple and the bread by slicing both": slicing them.
+    fn by_cutting(&mut self, index: usize) -> bool {
+        let prepares = ["prepare", "process", "prep", "fix", "ready"].contains(&self.at(index));
+        let end = self.next_mark(index, &[",", "."]);
+        let by = (index + 2..end).find(|&at| self.at(at) == "by" && self.at(at + 1).ends_with("ing"));
+        let Some(by) = by.filter(|&by| {
+            prepares
+                && ["both", "it", "them", "each"].contains(&self.at(by + 2))
+                && self.noun_before(by).is_some()
+        }) else {
+            return false;
+        };
+        let doing = self.at(by + 1).to_owned();
+        self.say(by, by + 3, &[]);
+        self.say(index, index + 1, &[&doing]);
+        true
+    }
+
+    /// "fill the bowl with all the slices", "loading the pan with the potato and the egg": put them in it.
+    fn filled_with_things(&mut self, index: usize) -> bool {
+        const FILL: [&str; 9] = ["fill", "load", "pile", "heap", "pack", "stack", "stuff", "top", "cover"];
+        const FILLING: [&str; 6] = ["filling", "loading", "piling", "heaping", "packing", "stacking"];
+        let gerund = FILLING.contains(&self.at(index));
+        let with = (index + 2..index + 6).find(|&at| self.at(at) == "with");
+        let Some(with) = with.filter(|&with| {
+            (gerund || FILL.contains(&self.at(index)))
+                && is_determiner(self.at(index + 1))
+                && self.noun_before(with).is_some()
+        }) else {
+            return false;
+        };
+        let end = (with + 1..)
+            .find(|&at| self.is_mark(at) || ["then", "and"].contains(&self.at(at)) && self.is_order(at + 1))
+            .unwrap_or(with);
+        let end = end - usize::from(self.at(end - 1) == "and");
+        let parts =
+            ["slices", "pieces", "slice", "piece", "them", "both", "everything"].contains(&self.at(end - 1));
+        let things =
+            self.names_only(with + 1, end) && !(with + 1..end).any(|at| LIQUIDS.contains(&self.at(at)));
+        if !parts && !things {
+            return false;
+        }
+        let mut order = vec![if gerund { "putting" } else { "put" }.to_owned()];
+        order.extend(self.words(with + 1..end));
+        order.push("in".to_owned());
+        order.extend(self.words(index + 1..with));
+        self.say_all(index, end, &order);
+        true
+    }
+
+    /// "turn the apple and the bread into slices": slice them.
+    fn made_into_slices(&mut self, index: usize) -> bool {
+        let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
+        let end = self.next_mark(index, &[",", "."]);
+        let into = (index + 2..end).find(|&at| {
+            self.at(at) == "into"
+                && ["slices", "pieces", "chunks", "cubes", "wedges"].contains(&self.at(at + 1))
+        });
+        let Some(into) = into.filter(|&into| {
+            opens
+                && ["turn", "make"].contains(&self.at(index))
+                && self.noun_before(into).is_some()
+                && !(index + 1..into).any(|at| self.is_order(at))
+        }) else {
+            return false;
+        };
+        self.say(into, into + 2, &[]);
+        self.say(index, index + 1, &["slice"]);
+        true
+    }
+}
