@@ -15,10 +15,13 @@ impl<'a> Interpreter<'_, 'a> {
             return self.only_mention(clause);
         }
         let is_tool = |place: &Place| matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| verb.tools.contains(kind)));
+        // "wash everything in the sink": what is in it, wherever it is washed.
+        let everything = clause.objects.iter().any(|phrase| phrase.head == Head::Everything);
         let at: Vec<Place> = clause
             .places
             .iter()
-            .filter(|place| !is_tool(place) && matches!(place.relation, Relation::In | Relation::From))
+            .filter(|place| everything || !is_tool(place))
+            .filter(|place| matches!(place.relation, Relation::In | Relation::From))
             .cloned()
             .collect();
         let objects = self.objects(clause, &at, verb.wants.as_deref());

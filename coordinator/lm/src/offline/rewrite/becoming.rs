@@ -11,6 +11,14 @@ impl Rewriting<'_> {
         let mut index = 0;
         while index < self.tokens.len() {
             self.each_one(index);
+            // "the mug then gets filled"
+            if ["then", "also", "now"].contains(&self.at(index))
+                && index > 0
+                && self.noun_before(index).is_some()
+                && ["gets", "get"].contains(&self.at(index + 1))
+            {
+                self.say(index, index + 1, &[]);
+            }
             let subject = self.is_subject_before(index);
             let _ = subject
                 && (self.gets_so(index)
@@ -233,17 +241,20 @@ impl Rewriting<'_> {
         let room = is_determiner(self.at(index + 1)) && self.lexicon.is_small("rooms", &[self.at(index + 2)]);
         let darkens = ["darken", "darkening"].contains(&self.at(index));
         let left = ["leave", "keep", "make", "have", "get"].contains(&self.at(index))
-            && self.at(index + 3) == "dark";
+            && ["dark", "unlit"].contains(&self.at(index + 3));
         let here = is_determiner(self.at(index)) && self.lexicon.is_small("rooms", &[self.at(index + 1)]);
-        let told = here
-            && ["should", "must", "shall"].contains(&self.at(index + 2))
-            && ["be", "stay"].contains(&self.at(index + 3))
-            && self.at(index + 4) == "dark";
+        let (shall, be) = (self.at(index + 2), self.at(index + 3));
+        let told = match (shall, be) {
+            ("should" | "must" | "shall", "be" | "stay" | "go") => 4,
+            ("goes" | "stays" | "gets", _) => 3,
+            _ => 0,
+        };
+        let told = told * usize::from(here && told > 0 && ["dark", "unlit"].contains(&self.at(index + told)));
         let life = (index + 3..index + 7).find(|&at| self.starts(at, &["to", "life"]));
         if room && (darkens || left) {
             self.say(index, index + 3 + usize::from(left), &["turn", "off", "the", "lights"]);
-        } else if told {
-            self.say(index, index + 5, &["the", "lights", "should", "be", "off"]);
+        } else if told > 0 {
+            self.say(index, index + told + 1, &["the", "lights", "should", "be", "off"]);
         } else if let Some(life) = life.filter(|_| self.at(index) == "bring") {
             self.say(life, life + 2, &[]);
             self.say(index, index + 1, &["turn", "on"]);

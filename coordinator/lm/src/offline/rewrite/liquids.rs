@@ -15,6 +15,7 @@ impl Rewriting<'_> {
         let mut index = 0;
         while index < self.tokens.len() {
             let subject = index > 0 && self.noun_before(index).is_some();
+            self.inside_it(index);
             let _ = subject && (self.has_in_it(index) || self.filled_from_the_tap(index))
                 || self.given_a_liquid(index)
                 || self.kept_full(index)
@@ -22,6 +23,36 @@ impl Rewriting<'_> {
                 || self.taps_to_fill(index)
                 || self.until_full(index);
             index += 1;
+        }
+    }
+
+    /// "put the pot on the stove with water inside": with water in it; "water for the pot": fill it.
+    fn inside_it(&mut self, index: usize) {
+        let some = usize::from(["some", "fresh", "a"].contains(&self.at(index + 1)));
+        let liquid = index + 1 + some;
+        let inside = match (self.at(liquid + 1), self.at(liquid + 2)) {
+            ("in" | "inside", "there") => 2,
+            ("inside" | "within", "it") => 2,
+            ("inside" | "within", _) => 1,
+            _ => 0,
+        };
+        let ends =
+            self.is_mark(liquid + 1 + inside) || ["and", "then"].contains(&self.at(liquid + 1 + inside));
+        if self.at(index) == "with" && LIQUIDS.contains(&self.at(liquid)) && inside > 0 && ends {
+            self.say(liquid + 1, liquid + 1 + inside, &["in", "it"]);
+        }
+        let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
+        let vessel = (index + 4..index + 7).find(|&at| self.noun_before(at).is_some() && self.is_mark(at));
+        if let Some(end) = vessel.filter(|_| {
+            opens
+                && LIQUIDS.contains(&self.at(index))
+                && self.at(index + 1) == "for"
+                && is_determiner(self.at(index + 2))
+        }) {
+            let mut order = vec!["fill".to_owned()];
+            order.extend(self.words(index + 2..end));
+            order.extend(["with".to_owned(), self.at(index).to_owned()]);
+            self.say_all(index, end, &order);
         }
     }
 

@@ -61,6 +61,21 @@ impl Rewriting<'_> {
                 _ => 0,
             };
             let state = self.lexicon.adjective(&[self.at(index + length)]).is_some();
+            // "with the tap not running"
+            let denied = match self.at(index + 1) {
+                "running" | "on" | "lit" | "burning" => "off",
+                "open" => "closed",
+                "closed" | "shut" => "open",
+                "dirty" => "clean",
+                _ => "",
+            };
+            if self.at(index) == "not"
+                && !denied.is_empty()
+                && (with || alone)
+                && self.noun_before(index).is_some()
+            {
+                self.say(index, index + 2, &[denied]);
+            }
             if length > 0 && (with || alone) && state && self.noun_before(index).is_some() {
                 self.say(index, index + length, &[]);
             }

@@ -46,7 +46,19 @@ impl Rewriting<'_> {
             let behind = self.at(end + 1);
             let goes_on = self.is_place(end + 1) || SHALL.contains(&behind) || is_going(behind);
             let told = noun > 0 && index > noun && is_determiner(self.at(index - noun - 1));
-            if self.at(index) == "," && told && several && self.at(end) == "," && goes_on {
+            let filled = joins && self.at(state) == "filled" && state + 1 == end && self.at(end) == ",";
+            if self.at(index) == "," && told && filled {
+                // "the kettle, once filled, goes on the burner"
+                let thing = self.words(index - noun - 1..index);
+                self.say(index, end + 1, &[]);
+                let mut order = vec!["fill".to_owned()];
+                order.extend(thing);
+                order.push(".".to_owned());
+                let start = self.clause_start(index - noun - 1);
+                if start == index - noun - 1 {
+                    self.say_all(start, start, &order);
+                }
+            } else if self.at(index) == "," && told && several && self.at(end) == "," && goes_on {
                 let states = self.words(first..end);
                 self.say(index, end + 1, &[]);
                 self.say_all(index - noun, index - noun, &states);
