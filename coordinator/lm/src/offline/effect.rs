@@ -133,7 +133,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 Act::Place | Act::Discard | Act::Store => self.place(clause, verb, next),
                 Act::Hold => self.hold(clause),
                 Act::Examine => self.examine(clause),
-                Act::Chill | Act::Heat | Act::Cook | Act::Set => self.set(clause, verb),
+                Act::Chill | Act::Heat | Act::Cook | Act::Set => self.set(clause, verb, next),
                 Act::Fill | Act::Pour => self.fill(clause, verb),
                 Act::Empty => self.empty(clause),
             };
@@ -487,6 +487,7 @@ mod changing;
 pub(super) mod forbid;
 mod holding;
 mod placing;
+mod staying;
 mod telling;
 
 pub(in crate::offline) use telling::untrue_place;

@@ -8,7 +8,7 @@ use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
 use super::{Change, Interpreter};
 
 impl<'a> Interpreter<'_, 'a> {
-    pub(super) fn set(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
+    pub(super) fn set(&mut self, clause: &Clause<'a>, verb: &Verb, next: Option<&Clause<'a>>) -> Spoken {
         if verb.set.get("isToggled") == Some(&super::super::yes()) && clause.places.iter().any(is_a_while) {
             let text = format!("\"{}\" does not last, so it is no goal", clause.text);
             self.discourse.assume(text, 0.98);
@@ -41,6 +41,9 @@ impl<'a> Interpreter<'_, 'a> {
             || clause.places.iter().any(|p| p.relation == Relation::To)
         {
             self.stay_where_cut(clause, verb, &changed);
+        }
+        if next.is_none() {
+            self.stay_where_it_was_said_to_be(clause, verb, &changed);
         }
         self.put_down_tools(verb);
         self.hold_what_is_with(clause, verb);
