@@ -325,6 +325,14 @@ impl Lexicon {
                     words.iter().map(|word| inflect::singulars(word).into_iter().next()).collect();
                 all.filter(|all| all.len() > 1).and_then(|all| self.nouns.get(&all.concat()))
             })
+            .or_else(|| {
+                // "bottles of soap"
+                let [measure, "of", ..] = words else { return None };
+                let of = words[1..].concat();
+                let singulars = inflect::singulars(measure);
+                let mut whole = singulars.iter().filter(|s| !self.is_small("slices", &[s.as_str()]));
+                whole.find_map(|singular| self.nouns.get(&format!("{singular}{of}")))
+            })
             .map(|noun| (noun, true))
     }
 

@@ -130,6 +130,8 @@ pub struct Place {
     pub there: bool,
     /// Whether it is `on top of`: not within.
     pub on_top: bool,
+    /// Whether it is `over`: not in or on it, if something else can be.
+    pub over: bool,
 }
 
 impl Place {
@@ -142,6 +144,7 @@ impl Place {
             under,
             there: preposition == "at",
             on_top: matches!(preposition, "on top of" | "atop" | "to the top of"),
+            over: preposition == "over",
         }
     }
 }

@@ -133,7 +133,9 @@ impl<'a> Parser<'a> {
             return first || determined || self.noun_begins(length);
         }
         if self.lexicon.adjective(&[word]).is_some() {
-            return first || determined || (!self.wants_place && self.noun_begins(length));
+            // "…, chill in the fridge, …"
+            let there = matches!(next, Some("in" | "inside" | "with" | "using"));
+            return first || determined || there || (!self.wants_place && self.noun_begins(length));
         }
         !verbs.is_empty()
     }

@@ -16,6 +16,9 @@ impl<'a> Interpreter<'_, 'a> {
         if !clause.complement.is_empty() && clause.places.is_empty() {
             return self.keep(clause);
         }
+        if let Some(taken) = self.thrown_away_from(clause, verb) {
+            return self.place(&taken, verb, next);
+        }
         if let Some(laid) = self.laid_with(clause) {
             return self.place(&laid, verb, next);
         }
@@ -105,6 +108,20 @@ impl<'a> Interpreter<'_, 'a> {
             }
         }
         Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
+    }
+
+    /// "throw away the bottle on the counter": from there.
+    fn thrown_away_from(&self, clause: &Clause<'a>, verb: &Verb) -> Option<Clause<'a>> {
+        let bin = |place: &Place| matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| kind == "GarbageCan"));
+        let lies = |place: &Place| place.relation == Relation::In;
+        let said = verb.act == Act::Discard && clause.places.iter().any(lies);
+        (said && !clause.places.iter().any(bin)).then(|| {
+            let mut taken = clause.clone();
+            for place in taken.places.iter_mut().filter(|place| lies(place)) {
+                place.relation = Relation::From;
+            }
+            taken
+        })
     }
 
     /// "in a box that is on a chair": the box is on the chair in the end.
@@ -223,8 +240,9 @@ impl<'a> Interpreter<'_, 'a> {
         };
         let relation = |i: usize| clause.places[i].relation;
         let compartment = |i: usize| {
-            matches!(&clause.places[i].phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|k| {
-                scene.has(k) && self.discourse.lexicon.is_small("compartments", &[&k.to_lowercase()])
+            matches!(&clause.places[i].phrase.head, Head::Noun(noun)
+            if noun.kinds.iter().find(|k| scene.has(k)).is_some_and(|k| {
+                self.discourse.lexicon.is_small("compartments", &[&k.to_lowercase()])
             }))
         };
         // "on the top shelf inside the fridge": a part of the fridge.
@@ -236,6 +254,8 @@ impl<'a> Interpreter<'_, 'a> {
             [.., a, b] if movable(*a) && !movable(*b) => (*b, Some(*a)),
             [a, b] if compartment(*a) && shelves_of_its_own(*b) => (*b, None),
             [a, b] if compartment(*a) && !compartment(*b) && relation(*b) == Relation::In => (*a, None),
+            // "in a cabinet over the sink"
+            [a, b] if compartment(*a) && clause.places[*b].over => (*a, None),
             _ => (to.unwrap_or(last), None),
         };
         let at = (0..clause.places.len())
