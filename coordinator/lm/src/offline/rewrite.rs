@@ -16,6 +16,7 @@ mod people;
 mod relations;
 mod saying;
 mod shorthand;
+mod slips;
 mod speech;
 mod timing;
 mod topic;
@@ -35,6 +36,8 @@ const SHALL: [&str; 14] = [
 pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
+    text.slips();
+    text.places_after_then();
     text.duties();
     text.corrections();
     text.people();
