@@ -319,7 +319,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
     fn objects(&mut self, clause: &Clause<'a>, at: &[Place], wants: Option<&str>) -> Vec<usize> {
         let mut found: Vec<usize> = Vec::new();
         for phrase in &clause.objects {
-            let phrase = self.with_lamps_first(phrase);
+            let phrase = self.with_lamps_first(phrase, at);
             for entity in self.discourse.mention(&phrase, at, wants) {
                 if !found.contains(&entity) {
                     found.push(entity);
@@ -343,10 +343,15 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         found
     }
 
-    /// While something is held up to a light, the light is a lamp.
-    fn with_lamps_first(&self, phrase: &Phrase) -> Phrase {
+    /// While something is held up to a light, the light is a lamp; so is one that stands on something.
+    fn with_lamps_first(&self, phrase: &Phrase, at: &[Place]) -> Phrase {
         let mut phrase = phrase.clone();
-        if let (Head::Noun(noun), true) = (&mut phrase.head, self.lamp_wanted)
+        let stands = phrase.at.iter().chain(at).any(|place| {
+            place.relation == Relation::In
+                && matches!(&place.phrase.head, Head::Noun(noun)
+                    if noun.kinds.iter().any(|kind| self.discourse.scene.affords(kind, "receptacle")))
+        });
+        if let (Head::Noun(noun), true) = (&mut phrase.head, self.lamp_wanted || stands)
             && noun.kinds.len() > 1
             && noun.kinds.iter().any(|kind| kind == "DeskLamp")
         {
@@ -407,26 +412,6 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         }
         Spoken { objects, ..Spoken::default() }
     }
-
-    /// A tool is no goal, except a lamp that is used to look at something.
-    fn use_tool(&mut self, clause: &Clause<'a>, next: Option<&Clause<'a>>) -> Spoken {
-        let examines = next.is_some_and(|next| next.verbs.iter().any(|verb| verb.act == Act::Examine));
-        if !examines {
-            // "use the spray and the cloth to clean the mirror, then put them away"
-            let reached =
-                clause.objects.iter().filter(|phrase| self.is_movable(phrase)).cloned().collect::<Vec<_>>();
-            let reached =
-                reached.iter().flat_map(|phrase| self.discourse.mention(phrase, &[], None)).collect();
-            return Spoken { reached, ..Spoken::default() };
-        }
-        let lamps = self.objects(clause, &clause.places, Some("toggleable"));
-        for &lamp in &lamps {
-            if self.discourse.scene.affords(self.discourse.entities[lamp].kind(), "toggleable") {
-                self.add(lamp, Change::State("isToggled".to_owned(), super::yes()));
-            }
-        }
-        Spoken { places: lamps, ..Spoken::default() }
-    }
 }
 
 /// "likewise", "do the same", "the same with the spoon", but not "in the same drawer".
@@ -465,7 +450,7 @@ fn is_a_trip(clause: &Clause<'_>, next: Option<&Clause<'_>>) -> bool {
 }
 
 /// Whether a phrase may be a lamp.
-fn is_lamp(phrase: &Phrase) -> bool {
+pub(super) fn is_lamp(phrase: &Phrase) -> bool {
     matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| kind == "DeskLamp" || kind == "FloorLamp"))
 }
 
@@ -485,6 +470,7 @@ fn about_the_same(a: &Change, b: &Change) -> bool {
 
 mod changing;
 pub(super) mod forbid;
+mod going;
 mod holding;
 mod placing;
 mod staying;

@@ -28,6 +28,9 @@ impl<'a> Interpreter<'_, 'a> {
         let (goal, inner, at) = self.sort_places(clause);
         if let Some(goal) = goal {
             if let Some(inner) = inner {
+                if next.is_some_and(|next| moves_on(&inner, next)) {
+                    return self.put(clause, &at, &inner);
+                }
                 return self.put_nested(clause, &at, &inner, &goal);
             }
             if let Some(under) = self.is_said_to_stand(&goal) {
@@ -180,29 +183,6 @@ impl<'a> Interpreter<'_, 'a> {
         })
     }
 
-    /// "go to the fridge and open it": going is no goal, but "it" is the fridge.
-    pub(super) fn go(&mut self, clause: &Clause<'a>, next: Option<&Clause<'a>>) -> Spoken {
-        let is_pronoun = |phrase: &Phrase| matches!(phrase.head, Head::Pronoun { .. });
-        let Some(wants) = next
-            .filter(|next| next.objects.iter().any(is_pronoun))
-            .and_then(|next| next.verbs.iter().find_map(|verb| verb.wants.as_deref()))
-            .filter(|wants| ["openable", "toggleable"].contains(wants))
-        else {
-            let reached = self.receptacles_spoken_of(clause);
-            return Spoken { reached, ..Spoken::default() };
-        };
-        let scene = self.discourse.scene;
-        let fits = |phrase: &Phrase| match &phrase.head {
-            Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, wants)),
-            Head::Named(_) => true,
-            _ => false,
-        };
-        let target = clause.places.iter().map(|place| &place.phrase).chain(&clause.objects).find(|p| fits(p));
-        let places =
-            target.map(|phrase| self.discourse.mention(phrase, &[], Some(wants))).unwrap_or_default();
-        Spoken { places, ..Spoken::default() }
-    }
-
     /// The receptacles that a clause names, for "in it" later.
     pub(super) fn receptacles_spoken_of(&mut self, clause: &Clause<'a>) -> Vec<usize> {
         let scene = self.discourse.scene;
@@ -241,7 +221,7 @@ impl<'a> Interpreter<'_, 'a> {
         let relation = |i: usize| clause.places[i].relation;
         let compartment = |i: usize| {
             matches!(&clause.places[i].phrase.head, Head::Noun(noun)
-            if noun.kinds.iter().find(|k| scene.has(k)).is_some_and(|k| {
+            if noun.kinds.iter().find(|k| scene.has(k)).or(noun.kinds.first()).is_some_and(|k| {
                 self.discourse.lexicon.is_small("compartments", &[&k.to_lowercase()])
             }))
         };
@@ -253,6 +233,7 @@ impl<'a> Interpreter<'_, 'a> {
         let (goal, inner) = match goals.as_slice() {
             [.., a, b] if movable(*a) && !movable(*b) => (*b, Some(*a)),
             [a, b] if compartment(*a) && shelves_of_its_own(*b) => (*b, None),
+            [a, b] if shelves_of_its_own(*a) && compartment(*b) => (*a, None),
             [a, b] if compartment(*a) && !compartment(*b) && relation(*b) == Relation::In => (*a, None),
             // "in a cabinet over the sink"
             [a, b] if compartment(*a) && clause.places[*b].over => (*a, None),
@@ -469,4 +450,17 @@ impl<'a> Interpreter<'_, 'a> {
 fn is_left_alone(clause: &Clause<'_>) -> bool {
     let left = clause.verb_text == "leave" && !clause.objects.is_empty();
     left && clause.places.is_empty() && clause.complement.is_empty() && !clause.back
+}
+
+/// "put the spoon in the bowl in the fridge and put the bowl on the table": the bowl was in the fridge and goes elsewhere.
+fn moves_on(inner: &Place, next: &Clause<'_>) -> bool {
+    let goes = |place: &Place| matches!(place.relation, Relation::In | Relation::To);
+    let same = |phrase: &Phrase| match (&phrase.head, &inner.phrase.head) {
+        (Head::Noun(a), Head::Noun(b)) => a.word == b.word,
+        (Head::Pronoun { plural }, _) => !plural,
+        _ => false,
+    };
+    next.verbs.iter().any(|verb| matches!(verb.act, Act::Place | Act::Hold))
+        && next.places.iter().any(goes)
+        && matches!(next.objects.as_slice(), [phrase] if same(phrase))
 }

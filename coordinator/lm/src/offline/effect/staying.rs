@@ -13,7 +13,8 @@ impl<'a> Interpreter<'_, 'a> {
         objects: &[usize],
     ) {
         let washes = verb.set.get("isDirty") == Some(&crate::offline::no());
-        let treats = washes || matches!(verb.act, Act::Heat | Act::Chill | Act::Cook);
+        let cuts = verb.wants.as_deref() == Some("sliceable");
+        let treats = washes || cuts || matches!(verb.act, Act::Heat | Act::Chill | Act::Cook);
         let named = |place: &Place, kinds: &[String]| matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| kinds.contains(kind)));
         let tool = |place: &Place| named(place, &verb.tools);
         let goes = clause
