@@ -402,7 +402,7 @@ impl Parser<'_> {
     }
 
     /// Whether a noun, or adjectives and a noun, follow behind `offset` words.
-    fn noun_follows(&self, offset: usize) -> bool {
+    pub(super) fn noun_follows(&self, offset: usize) -> bool {
         (offset..offset + 5)
             .take_while(|&at| {
                 // "the front edge of the bed": behind "of" a determiner may stand.

@@ -109,6 +109,10 @@ impl<'a> Parser<'a> {
         }
         let determined =
             next.is_some_and(|next| is_determiner(next) || ["it", "them", "everything"].contains(&next));
+        // "the leftmost, lower drawer": which drawer.
+        if !first && !determined && word == "lower" && self.noun_follows(1) {
+            return false;
+        }
         let noun = self.longest_noun();
         if noun.as_ref().is_some_and(|(_, _, noun_length)| *noun_length > length)
             && !(first && self.noun_begins(length))

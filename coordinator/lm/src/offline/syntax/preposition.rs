@@ -3,7 +3,13 @@
 use super::Relation;
 
 /// Prepositions, the longer first.
-const PREPOSITIONS: [(&str, Relation); 85] = [
+const PREPOSITIONS: [(&str, Relation); 91] = [
+    ("at the side of", Relation::Near),
+    ("on each side of", Relation::Near),
+    ("on either side of", Relation::Near),
+    ("on both sides of", Relation::Near),
+    ("in the front of", Relation::Near),
+    ("on top the", Relation::In),
     ("next the", Relation::Near),
     ("next a", Relation::Near),
     ("beside of", Relation::Near),
