@@ -281,6 +281,8 @@ impl Parser<'_> {
             }
             "all" | "every" | "each" | "whole" => front.quantity = Some(Quantity::All),
             "both" => front.quantity = Some(Quantity::Count(2)),
+            // "some of the candles": not all of them.
+            "some" | "several" if self.word_at(1) == Some("of") => front.quantity = Some(Quantity::Count(2)),
             "some" | "several" | "few" => front.quantity = Some(Quantity::Plural),
             "any" | "either" => front.quantity = Some(Quantity::One),
             "another" | "other" | "remaining" => front.phrase.other = true,
