@@ -37,7 +37,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
     text.slips();
-    text.places_after_then();
+    text.places_after_places();
     text.duties();
     text.corrections();
     text.people();

@@ -256,6 +256,7 @@ impl<'a> Interpreter<'_, 'a> {
         if let (Head::Noun(noun), false) = (&mut goal.phrase.head, defaults.is_empty()) {
             noun.kinds.sort_by_key(|kind| !defaults.contains(&kind));
         }
+        self.sort_by_top(&mut goal);
         let mut places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
         if matches!(goal.phrase.head, Head::Pronoun { .. })
             && places.iter().any(|place| objects.contains(place))
@@ -324,9 +325,24 @@ impl<'a> Interpreter<'_, 'a> {
         self.discourse.assume(text, 0.97);
     }
 
+    /// What is put "on" a cabinet is put on what has a top rather than in what has a door, and "in" a dresser means in a
+    /// drawer.
+    fn sort_by_top(&self, place: &mut Place) {
+        let scene = self.discourse.scene;
+        let Head::Noun(noun) = &mut place.phrase.head else { return };
+        let takes = |kind: &str| scene.affords(kind, "receptacle") && !scene.affords(kind, "pickupable");
+        let opens = |kind: &str| scene.affords(kind, "openable");
+        let fits = |kind: &str| takes(kind) && opens(kind) == place.within;
+        if !noun.class && (place.upon || place.within) && noun.kinds.iter().any(|kind| fits(kind)) {
+            noun.kinds.sort_by_key(|kind| takes(kind) && !fits(kind));
+        }
+    }
+
     /// "a spoon in a cup on the table": the spoon in the cup, and the cup on the table.
     fn put_nested(&mut self, clause: &Clause<'a>, at: &[Place], inner: &Place, goal: &Place) -> Spoken {
         let spoken = self.put(clause, at, inner);
+        let mut goal = goal.clone();
+        self.sort_by_top(&mut goal);
         let places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
         if let (Some(&carrier), Some(&place)) = (spoken.places.first(), places.first()) {
             self.put_in(carrier, place);
@@ -379,8 +395,11 @@ impl<'a> Interpreter<'_, 'a> {
         let mut surfaces = self.discourse.lexicon.beside(reference.as_deref());
         let likely = surfaces.find(|kind| scene.surely_accepts(kind, &thing));
         let kinds = self.discourse.entities[first].kinds.clone();
+        let likes = |kind| self.discourse.lexicon.likes(kind).iter().map(String::as_str);
         let chosen = under
-            .filter(|place| kinds.iter().any(|kind| scene.accepts(place, kind)))
+            .into_iter()
+            .flat_map(|place| std::iter::once(place).chain(likes(place)))
+            .find(|place| kinds.iter().any(|kind| scene.accepts(place, kind)))
             .or(stands.as_deref())
             .or(stands_on)
             .or(likely)

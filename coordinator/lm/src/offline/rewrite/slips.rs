@@ -28,28 +28,66 @@ impl Rewriting<'_> {
         }
     }
 
-    /// "put it in the fridge, then (to) the sink": then put it there.
-    pub(super) fn places_after_then(&mut self) {
+    /// "put it in the fridge, then (to) the sink", "to the fridge and to the sink": then put it there.
+    pub(super) fn places_after_places(&mut self) {
         let mut index = 1;
         while index < self.tokens.len() {
-            let to = usize::from(["to", "in", "into", "on", "onto"].contains(&self.at(index + 1)));
-            let end = self.next_mark(index + 1, &[",", ".", "and"]);
-            let named = is_determiner(self.at(index + 1 + to))
-                && end <= index + 2 + to + LONGEST_NAME
+            let then = self.at(index) == "then";
+            let before = (1..=index).rev().find(|&at| !["and", ","].contains(&self.at(at - 1))).unwrap_or(0);
+            let behind = index + usize::from(then);
+            let to = preposition(&[self.at(behind), self.at(behind + 1)]).filter(|_| self.is_there(behind));
+            let to = to.map_or(0, |(_, length)| length);
+            let end = self.next_mark(behind, &[",", ".", "and"]);
+            let named = end <= behind + 1 + to + LONGEST_NAME
+                && (is_determiner(self.at(behind + to)) || to > 0)
                 && self.noun_before(end).is_some()
-                && !(index + 1..end).any(|at| self.is_base_verb(at) && self.noun_before(at + 1).is_none());
-            let before = if self.at(index - 1) == "and" { index - 1 } else { index };
-            let somewhere = (before.saturating_sub(1 + LONGEST_NAME)..before)
-                .any(|at| ["in", "into", "to", "on", "onto", "inside"].contains(&self.at(at)));
-            let placed = somewhere && self.noun_before(before).is_some();
-            let start = self.sentence_start(index);
-            let puts = self.says_to_put(start);
-            if self.at(index) == "then" && named && placed && puts {
-                let order: &[&str] = if to == 1 { &["put", "it"] } else { &["put", "it", "in"] };
-                self.say(index + 1, index + 1, order);
+                && !(behind + to..end).any(|at| self.is_order(at))
+                && !(behind + to + 1..end).any(|at| is_determiner(self.at(at)));
+            let placed =
+                if then { self.placed_before(before) } else { to > 0 && self.passes_through(before, index) };
+            if named && placed && self.says_to_put_or_take(self.sentence_start(index)) {
+                let order: &[&str] =
+                    if to > 0 { &["then", "put", "it"] } else { &["then", "put", "it", "in"] };
+                self.say(index, behind, order);
+                index += order.len();
             }
             index += 1;
         }
+    }
+
+    /// Whether a place ends here: "in the fridge".
+    fn placed_before(&self, end: usize) -> bool {
+        self.noun_before(end).is_some()
+            && (end.saturating_sub(1 + LONGEST_NAME)..end).any(|at| self.is_there(at))
+    }
+
+    fn is_there(&self, at: usize) -> bool {
+        ["in", "into", "to", "on", "onto", "inside"].contains(&self.at(at))
+    }
+
+    /// "to the fridge (and) to …": a thing goes to no fridge and no microwave to stay there, if it goes on.
+    fn passes_through(&self, end: usize, index: usize) -> bool {
+        let device = self.noun_before(end).is_some_and(|words| {
+            let words: Vec<&str> = words.iter().map(String::as_str).collect();
+            self.lexicon.noun(&words).is_some_and(|(noun, _)| {
+                noun.kinds.first().is_some_and(|kind| ["Fridge", "Microwave"].contains(&kind.as_str()))
+            })
+        });
+        let goes = |at: usize| match self.at(at) {
+            "to" | "into" => true,
+            "in" | "inside" => end < index && self.at(index - 1) == "and",
+            _ => false,
+        };
+        device && (end.saturating_sub(LONGEST_NAME)..end).any(goes)
+    }
+
+    fn says_to_put_or_take(&self, start: usize) -> bool {
+        let takes = |at: usize| {
+            self.lexicon.verbs(self.at(at)).iter().any(|(_, particles, verb)| {
+                particles.is_empty() && matches!(verb.act, Act::Place | Act::Hold)
+            })
+        };
+        takes(start) || self.at(start) == "to" && takes(start + 1)
     }
 
     fn says_to_put(&self, index: usize) -> bool {
