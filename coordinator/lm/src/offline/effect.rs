@@ -113,6 +113,10 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                     self.empty(&Clause { objects: from, places: Vec::new(), ..clause.clone() })
                 }
                 Act::Set if liquid && self.runs_into(clause, verb) => self.fill(clause, verb),
+                Act::Heat | Act::Chill if liquid && self.lies_in_a_vessel(clause).is_some() => {
+                    let vessel = self.lies_in_a_vessel(clause).unwrap_or_else(|| clause.clone());
+                    self.set(&vessel, verb, next)
+                }
                 _ if is_a_trip(clause, next) => self.trip(clause),
                 Act::Place | Act::Pour
                     if liquid && clause.places.is_empty() && self.vessel_spoken_of().is_some() =>

@@ -51,6 +51,20 @@ impl<'a> Interpreter<'_, 'a> {
         Spoken { objects: changed, places, placed: false, ..Spoken::default() }
     }
 
+    /// "heat the water in the mug": the mug is heated.
+    pub(super) fn lies_in_a_vessel(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
+        let scene = self.discourse.scene;
+        let vessel = |place: &Place| {
+            place.relation == Relation::In
+                && matches!(&place.phrase.head, Head::Noun(noun)
+                    if noun.kinds.iter().any(|kind| scene.affords(kind, "canFillWithLiquid")))
+        };
+        let at = clause.places.iter().position(vessel)?;
+        let mut heated = clause.clone();
+        heated.objects = vec![heated.places.remove(at).phrase];
+        Some(heated)
+    }
+
     /// What was spoken of last and holds liquids.
     pub(super) fn vessel_spoken_of(&self) -> Option<usize> {
         let discourse = &self.discourse;
