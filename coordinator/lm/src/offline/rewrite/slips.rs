@@ -22,6 +22,9 @@ impl Rewriting<'_> {
                 self.say(index + 1, index + 2, &[]);
             } else if put && next == "to" && self.several_go_somewhere(index + 2) {
                 self.say(index + 1, index + 2, &["two"]);
+            } else if word == "then" && index > 0 && self.at(index - 1) == "and" && next == "another" {
+                // "one mug and then another in the sink"
+                self.say(index, index + 1, &[]);
             } else if word == "over" && ["cooked", "heated"].contains(&next.as_str()) {
                 self.say(index, index + 2, &[&next]);
             }

@@ -3,7 +3,10 @@
 use super::Relation;
 
 /// Prepositions, the longer first.
-const PREPOSITIONS: [(&str, Relation); 91] = [
+const PREPOSITIONS: [(&str, Relation); 94] = [
+    ("along side of", Relation::Near),
+    ("along side", Relation::Near),
+    ("alongside", Relation::Near),
     ("at the side of", Relation::Near),
     ("on each side of", Relation::Near),
     ("on either side of", Relation::Near),
@@ -154,6 +157,7 @@ fn may_begin_one(word: &str) -> bool {
             | "adjacent"
             | "against"
             | "along"
+            | "alongside"
             | "among"
             | "around"
             | "at"
