@@ -57,8 +57,10 @@ impl<'a> Parser<'a> {
         if said.ends_with("between") {
             self.other_end();
         }
-        let relation =
-            if self.wants_place && is_on_the_rim(&said, &phrase) { Relation::Near } else { relation };
+        // "put it away over the microwave": not in it.
+        let above = said == "over" && self.is_openable(&phrase);
+        let near = above || self.wants_place && is_on_the_rim(&said, &phrase);
+        let relation = if near { Relation::Near } else { relation };
         self.last_place = Some(Rc::new(phrase.clone()));
         clause.places.push(Place::new(relation, &said, phrase));
         self.more_places(clause, relation);
