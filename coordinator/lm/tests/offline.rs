@@ -131,6 +131,38 @@ fn the_scene_decides_what_a_word_means() {
 }
 
 #[test]
+fn where_a_thing_was_says_where_it_is_to_be() {
+    let hot = json!({"temperature": "Hot"});
+    let cases = [
+        // Nobody says where it goes, but where it was.
+        (
+            "heat the apple on the counter",
+            json!([{"object": "CounterTop", "contains": [{"object": "Apple", "is": hot}]}]),
+        ),
+        // Thrown away from there, not put there.
+        ("throw away the bread on the counter", json!([{"object": "GarbageCan", "contains": ["Bread"]}])),
+        (
+            "rinse the fork and return to the counter",
+            json!([
+                {"object": "Fork", "is": {"isDirty": false}},
+                {"object": "CounterTop", "contains": [{"object": "Fork", "is": {"isDirty": false}}]}
+            ]),
+        ),
+        // The bowl is not said to get cold: it was in the fridge.
+        (
+            "put the spoon in the bowl in the fridge and put the bowl on the counter",
+            json!([
+                {"object": "Bowl", "contains": ["Spoon"]},
+                {"object": "CounterTop", "contains": [{"object": "Bowl", "contains": ["Spoon"]}]}
+            ]),
+        ),
+    ];
+    for (instruction, expected) in cases {
+        check(instruction, kitchen(), expected);
+    }
+}
+
+#[test]
 fn order_words_order_and_others_do_not() {
     let after = |instruction: &str| -> Vec<Vec<String>> {
         understood(instruction, kitchen()).subtasks.into_iter().map(|subtask| subtask.after).collect()

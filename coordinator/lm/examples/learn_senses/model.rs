@@ -162,6 +162,7 @@ fn chances(columns: &[Vec<usize>], own: &[f64], weights: &[f64]) -> Vec<f64> {
 const HEADER: &str = "\
 # Which of its types a loose noun means, by the words around it. Learned, not written: `cargo run --release -p lamma-lm
 # --example learn_senses -- ../shared/data` makes this file anew from one half of ALFRED's crowd-written sentences (MIT).
-# Numbers are tenths of a natural logarithm. `near`: words within reach, whatever the noun. `before`: by noun, the two
-# words in front of it, the nearest preposition (`on_`), and how often it means the type at all (`_`).
+# Numbers are tenths of a natural logarithm. `near`: words within reach, whatever the noun, and types (`Bed`) that tell
+# the room. `before`: by noun, the two words in front of it, the nearest preposition (`on_`), and how often it means
+# the type at all (`_`).
 ";

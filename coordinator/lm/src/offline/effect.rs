@@ -113,6 +113,10 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                     self.empty(&Clause { objects: from, places: Vec::new(), ..clause.clone() })
                 }
                 Act::Set if liquid && self.runs_into(clause, verb) => self.fill(clause, verb),
+                Act::Heat | Act::Chill if liquid && self.lies_in_a_vessel(clause).is_some() => {
+                    let vessel = self.lies_in_a_vessel(clause).unwrap_or_else(|| clause.clone());
+                    self.set(&vessel, verb, next)
+                }
                 _ if is_a_trip(clause, next) => self.trip(clause),
                 Act::Place | Act::Pour
                     if liquid && clause.places.is_empty() && self.vessel_spoken_of().is_some() =>
@@ -133,7 +137,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
                 Act::Place | Act::Discard | Act::Store => self.place(clause, verb, next),
                 Act::Hold => self.hold(clause),
                 Act::Examine => self.examine(clause),
-                Act::Chill | Act::Heat | Act::Cook | Act::Set => self.set(clause, verb),
+                Act::Chill | Act::Heat | Act::Cook | Act::Set => self.set(clause, verb, next),
                 Act::Fill | Act::Pour => self.fill(clause, verb),
                 Act::Empty => self.empty(clause),
             };
@@ -324,7 +328,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
     fn objects(&mut self, clause: &Clause<'a>, at: &[Place], wants: Option<&str>) -> Vec<usize> {
         let mut found: Vec<usize> = Vec::new();
         for phrase in &clause.objects {
-            let phrase = self.with_lamps_first(phrase);
+            let phrase = self.with_lamps_first(phrase, at);
             for entity in self.discourse.mention(&phrase, at, wants) {
                 if !found.contains(&entity) {
                     found.push(entity);
@@ -348,10 +352,15 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         found
     }
 
-    /// While something is held up to a light, the light is a lamp.
-    fn with_lamps_first(&self, phrase: &Phrase) -> Phrase {
+    /// While something is held up to a light, the light is a lamp; so is one that stands on something.
+    fn with_lamps_first(&self, phrase: &Phrase, at: &[Place]) -> Phrase {
         let mut phrase = phrase.clone();
-        if let (Head::Noun(noun), true) = (&mut phrase.head, self.lamp_wanted)
+        let stands = phrase.at.iter().chain(at).any(|place| {
+            place.relation == Relation::In
+                && matches!(&place.phrase.head, Head::Noun(noun)
+                    if noun.kinds.iter().any(|kind| self.discourse.scene.affords(kind, "receptacle")))
+        });
+        if let (Head::Noun(noun), true) = (&mut phrase.head, self.lamp_wanted || stands)
             && noun.kinds.len() > 1
             && noun.kinds.iter().any(|kind| kind == "DeskLamp")
         {
@@ -413,26 +422,6 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         }
         Spoken { objects, ..Spoken::default() }
     }
-
-    /// A tool is no goal, except a lamp that is used to look at something.
-    fn use_tool(&mut self, clause: &Clause<'a>, next: Option<&Clause<'a>>) -> Spoken {
-        let examines = next.is_some_and(|next| next.verbs.iter().any(|verb| verb.act == Act::Examine));
-        if !examines {
-            // "use the spray and the cloth to clean the mirror, then put them away"
-            let reached =
-                clause.objects.iter().filter(|phrase| self.is_movable(phrase)).cloned().collect::<Vec<_>>();
-            let reached =
-                reached.iter().flat_map(|phrase| self.discourse.mention(phrase, &[], None)).collect();
-            return Spoken { reached, ..Spoken::default() };
-        }
-        let lamps = self.objects(clause, &clause.places, Some("toggleable"));
-        for &lamp in &lamps {
-            if self.discourse.scene.affords(self.discourse.entities[lamp].kind(), "toggleable") {
-                self.add(lamp, Change::State("isToggled".to_owned(), super::yes()));
-            }
-        }
-        Spoken { places: lamps, ..Spoken::default() }
-    }
 }
 
 /// "likewise", "do the same", "the same with the spoon", but not "in the same drawer".
@@ -471,7 +460,7 @@ fn is_a_trip(clause: &Clause<'_>, next: Option<&Clause<'_>>) -> bool {
 }
 
 /// Whether a phrase may be a lamp.
-fn is_lamp(phrase: &Phrase) -> bool {
+pub(super) fn is_lamp(phrase: &Phrase) -> bool {
     matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| kind == "DeskLamp" || kind == "FloorLamp"))
 }
 
@@ -491,8 +480,10 @@ fn about_the_same(a: &Change, b: &Change) -> bool {
 
 mod changing;
 pub(super) mod forbid;
+mod going;
 mod holding;
 mod placing;
+mod staying;
 mod telling;
 
 pub(in crate::offline) use telling::untrue_place;

@@ -325,6 +325,14 @@ impl Lexicon {
                     words.iter().map(|word| inflect::singulars(word).into_iter().next()).collect();
                 all.filter(|all| all.len() > 1).and_then(|all| self.nouns.get(&all.concat()))
             })
+            .or_else(|| {
+                // "bottles of soap"
+                let [measure, "of", ..] = words else { return None };
+                let of = words[1..].concat();
+                let singulars = inflect::singulars(measure);
+                let mut whole = singulars.iter().filter(|s| !self.is_small("slices", &[s.as_str()]));
+                whole.find_map(|singular| self.nouns.get(&format!("{singular}{of}")))
+            })
             .map(|noun| (noun, true))
     }
 
@@ -358,7 +366,8 @@ impl Lexicon {
             Spelling::of(bare.map(|(base, _)| base.as_str()))
         });
         let found = bare_verbs.one_edit_away(word);
-        let best = found.min_by_key(|base| (base.chars().next() != first, base.len()))?;
+        let common = |base: &str| self.is_small("common", &[base]);
+        let best = found.min_by_key(|base| (!common(base), base.chars().next() != first, base.len()))?;
         let known = self.verb_index.get(best).map(Vec::as_slice).unwrap_or_default();
         let bare = known.iter().filter(|(particles, _)| particles.is_empty());
         Some((best, bare.map(|(_, index)| &self.verbs[*index]).collect()))
@@ -449,7 +458,8 @@ impl Lexicon {
     pub fn spelling(&self) -> &Spelling {
         self.spelling.get_or_init(|| {
             let misspellable = |known: &&str| !self.is_small("real", &[known]);
-            Spelling::of(self.vocabulary.iter().map(String::as_str).filter(misspellable))
+            let words = self.vocabulary.iter().map(String::as_str).filter(misspellable);
+            Spelling::with_common(words, |word| self.is_small("common", &[word]))
         })
     }
 

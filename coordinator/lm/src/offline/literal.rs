@@ -17,10 +17,24 @@ pub fn is_weak(clause: &Clause<'_>, lexicon: &Lexicon) -> bool {
             .objects
             .iter()
             .any(|phrase| plain(phrase) || matches!(phrase.head, syntax::Head::Pronoun { .. }))
-        && clause.places.iter().any(|place| matches!(place.phrase.head, syntax::Head::Noun(_)));
+        && clause.places.iter().any(|place| matches!(place.phrase.head, syntax::Head::Noun(_)))
+        || takes_from_or_to_a_light(clause);
     let said: Vec<&str> = clause.words.iter().map(String::as_str).collect();
     let idiom = (0..said.len()).any(|at| lexicon.longest_small("idioms", &said[at..]).is_some());
     clause.verbs.is_empty() || idiom || weak && !clause.verb_text.contains(' ') && !places
+}
+
+/// "take the clock off the shelf", "see the keys under the lamp": of a thing it names, whatever a situation may be.
+fn takes_from_or_to_a_light(clause: &Clause<'_>) -> bool {
+    let named = clause.objects.iter().any(|phrase| matches!(phrase.head, syntax::Head::Noun(_)));
+    let does = |act: Act| clause.verbs.iter().any(|verb| verb.act == act);
+    let from = |place: &syntax::Place| {
+        place.relation == syntax::Relation::From && matches!(place.phrase.head, syntax::Head::Noun(_))
+    };
+    let lamp = |place: &syntax::Place| effect::is_lamp(&place.phrase);
+    named
+        && (does(Act::Hold) && clause.places.iter().any(from)
+            || does(Act::Examine) && clause.places.iter().any(lamp))
 }
 
 /// Whether a clause says what a thing of the scene shall be like: "have the potato chopped" is no recipe.

@@ -281,6 +281,8 @@ impl Parser<'_> {
             }
             "all" | "every" | "each" | "whole" => front.quantity = Some(Quantity::All),
             "both" => front.quantity = Some(Quantity::Count(2)),
+            // "some of the candles": not all of them.
+            "some" | "several" if self.word_at(1) == Some("of") => front.quantity = Some(Quantity::Count(2)),
             "some" | "several" | "few" => front.quantity = Some(Quantity::Plural),
             "any" | "either" => front.quantity = Some(Quantity::One),
             "another" | "other" | "remaining" => front.phrase.other = true,
@@ -402,7 +404,7 @@ impl Parser<'_> {
     }
 
     /// Whether a noun, or adjectives and a noun, follow behind `offset` words.
-    fn noun_follows(&self, offset: usize) -> bool {
+    pub(super) fn noun_follows(&self, offset: usize) -> bool {
         (offset..offset + 5)
             .take_while(|&at| {
                 // "the front edge of the bed": behind "of" a determiner may stand.

@@ -22,6 +22,7 @@ mod relations;
 mod saying;
 mod shorthand;
 mod slices;
+mod slips;
 mod speech;
 mod states;
 mod timing;
@@ -42,6 +43,8 @@ const SHALL: [&str; 14] = [
 pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
+    text.slips();
+    text.places_after_places();
     text.duties();
     text.whose_slices();
     text.known_by_what_they_do();

@@ -24,6 +24,9 @@ const PREPOSITIONS: [&str; 12] =
     ["on", "in", "from", "into", "to", "under", "with", "onto", "inside", "off", "by", "of"];
 const PREPOSITION_REACH: usize = 4;
 
+/// Types that tell what room it is: what a table is in a kitchen, it is not by a bed.
+const TELL_THE_ROOM: [&str; 4] = ["Fridge", "Toilet", "Bed", "Sofa"];
+
 /// What speaks for a type, in tenths of a natural logarithm.
 type Weights = BTreeMap<String, i32>;
 
@@ -31,7 +34,7 @@ type Weights = BTreeMap<String, i32>;
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Senses {
-    /// Type -> words around the noun.
+    /// Type -> words around the noun, and types of [`TELL_THE_ROOM`].
     near: BTreeMap<String, Weights>,
     /// Noun -> type -> clues right before the noun, or [`Clues::ALWAYS`]. A noun that is not here was not learned.
     before: BTreeMap<String, BTreeMap<String, Weights>>,
@@ -40,7 +43,7 @@ pub struct Senses {
 /// What is said around a noun.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Clues {
-    /// The words in reach.
+    /// The words in reach, in lower case, and what tells the room.
     pub near: BTreeSet<String>,
     /// The two words before it, and the nearest preposition before it as `on_`.
     pub before: BTreeSet<String>,
@@ -148,7 +151,9 @@ fn loose_nouns(nouns: &[NounAt<'_>], words: &[String], scene: &Scene<'_>) -> Vec
             .cloned()
             .collect();
         if kinds.len() > 1 {
-            let clues = Clues::around(words, at, *length);
+            let mut clues = Clues::around(words, at, *length);
+            let room = TELL_THE_ROOM.iter().filter(|kind| scene.has(kind));
+            clues.near.extend(room.map(|kind| (*kind).to_owned()));
             found.push((at, LooseNoun { word: noun.word.clone(), kinds, clues }));
         }
     }

@@ -16,15 +16,23 @@ struct Known {
     word: String,
     letters: Vec<char>,
     alphabet: u32,
+    /// Said so often that a slip is rather one for it than for another.
+    common: bool,
 }
 
 impl Spelling {
-    /// Of some words.
+    /// Of some words, none commoner than another.
     pub fn of<'a>(words: impl Iterator<Item = &'a str>) -> Self {
+        Self::with_common(words, |_| false)
+    }
+
+    /// Of some words, of which some are said most.
+    pub fn with_common<'a>(words: impl Iterator<Item = &'a str>, common: impl Fn(&str) -> bool) -> Self {
         let known = |word: &str| Known {
             word: word.to_owned(),
             letters: word.chars().collect(),
             alphabet: letter_set(word),
+            common: common(word),
         };
         Self { words: words.map(known).collect() }
     }
@@ -42,24 +50,25 @@ impl Spelling {
         self.words.iter().filter(near).map(|known| known.word.as_str())
     }
 
-    /// The nearest word and its distance, if it is near enough; of equally near ones, the one of the same length
-    /// and first letter, then the first in order.
+    /// The nearest word and its distance, if it is near enough; of equally near ones, a common one, the one of the same
+    /// length and first letter, then the first in order.
     pub fn nearest(&self, word: &str) -> Option<(String, usize)> {
         let letters: Vec<char> = word.chars().collect();
         let limit = if letters.len() >= 7 { 2 } else { 1 };
         let alphabet = letter_set(word);
-        let mut best: Option<((usize, bool, usize), String)> = None;
+        let mut best: Option<((usize, bool, bool, usize), String)> = None;
         for known in &self.words {
             // A plural adds a letter to the two of each edit.
             if (alphabet ^ known.alphabet).count_ones() as usize > 2 * limit + 1
-                || known.letters.len() < 4
+                || known.letters.len() < if known.common { 3 } else { 4 }
                 || known.letters.len().abs_diff(letters.len()) > limit
             {
                 continue;
             }
             let mut consider = |other: &[char]| {
                 let distance = damerau_levenshtein(&letters, other);
-                let score = (distance, letters.first() != other.first(), other.len().abs_diff(letters.len()));
+                let (first, length) = (letters.first() != other.first(), other.len().abs_diff(letters.len()));
+                let score = (distance, !known.common, first, length);
                 if distance <= limit && best.as_ref().is_none_or(|(found, _)| score < *found) {
                     best = Some((score, other.iter().collect()));
                 }
@@ -90,5 +99,13 @@ mod tests {
         assert_eq!(known.nearest("brad"), Some(("bread".to_owned(), 1)));
         assert_eq!(known.nearest("xyzzy"), None);
         assert_eq!(known.one_edit_away("bowk").collect::<Vec<_>>(), ["bowl"]);
+    }
+
+    #[test]
+    fn a_slip_is_rather_one_for_a_common_word() {
+        let words = ["cool", "doll", "pan", "plant", "roll"];
+        let known = Spelling::with_common(words.into_iter(), |word| ["cool", "pan"].contains(&word));
+        assert_eq!(known.nearest("coll"), Some(("cool".to_owned(), 1)));
+        assert_eq!(known.nearest("plan"), Some(("pan".to_owned(), 1)));
     }
 }

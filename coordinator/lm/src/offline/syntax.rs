@@ -130,6 +130,11 @@ pub struct Place {
     pub there: bool,
     /// Whether it is `on top of`: not within.
     pub on_top: bool,
+    /// Whether it is `over`: not in or on it, if something else can be.
+    pub over: bool,
+    /// Whether it is `on` and the like, or `in` and the like; neither where nothing says it.
+    pub upon: bool,
+    pub within: bool,
 }
 
 impl Place {
@@ -142,6 +147,13 @@ impl Place {
             under,
             there: preposition == "at",
             on_top: matches!(preposition, "on top of" | "atop" | "to the top of"),
+            over: preposition == "over",
+            upon: preposition.starts_with("on")
+                || matches!(preposition, "atop" | "upon" | "down on" | "back on"),
+            within: matches!(
+                preposition,
+                "in" | "into" | "inside" | "inside of" | "within" | "in to" | "back in"
+            ),
         }
     }
 }

@@ -319,10 +319,15 @@ impl<'a> Parser<'a> {
         let wished =
             self.words[..self.position].iter().any(|word| ["want", "like", "need"].contains(&word.as_str()));
         let plain = auxiliaries.iter().all(|word| ["is", "are"].contains(word));
-        if !(asked || kept && plain || wished && auxiliaries.is_empty()) {
+        let ahead = self.ahead(length);
+        // "a hot potato is placed on the counter": told as it shall be.
+        let told = plain
+            && length > 0
+            && matches!(ahead.peek(), Some("placed" | "put" | "moved"))
+            && ahead.ahead(1).place_length().is_some();
+        if !(asked || told || kept && plain || wished && auxiliaries.is_empty()) {
             return false;
         }
-        let ahead = self.ahead(length);
         let rest = ahead.rest();
         if (1..=2.min(rest.len())).any(|n| self.lexicon.adjective(&rest[..n]).is_some()) {
             return false;

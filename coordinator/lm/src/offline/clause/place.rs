@@ -54,8 +54,13 @@ impl<'a> Parser<'a> {
             object.except.append(&mut phrase.except);
         }
         let said = self.text_between(start, start + length);
-        let relation =
-            if self.wants_place && is_on_the_rim(&said, &phrase) { Relation::Near } else { relation };
+        if said.ends_with("between") {
+            self.other_end();
+        }
+        // "put it away over the microwave": not in it.
+        let above = said == "over" && self.is_openable(&phrase);
+        let near = above || self.wants_place && is_on_the_rim(&said, &phrase);
+        let relation = if near { Relation::Near } else { relation };
         self.last_place = Some(Rc::new(phrase.clone()));
         clause.places.push(Place::new(relation, &said, phrase));
         self.more_places(clause, relation);
@@ -93,11 +98,15 @@ impl<'a> Parser<'a> {
         let length = match (self.peek(), self.word_at(1)) {
             (Some("another"), Some("one")) => 2,
             (Some("another"), next)
-                if self.longest_noun_at(self.position + 1).is_none() && next != Some("of") =>
+                if self.longest_noun_at(self.position + 1).is_none()
+                    && next != Some("of")
+                    && !self.part_follows(1) =>
             {
                 1
             }
-            (Some("the"), Some("other")) if self.longest_noun_at(self.position + 2).is_none() => {
+            (Some("the"), Some("other"))
+                if self.longest_noun_at(self.position + 2).is_none() && !self.part_follows(2) =>
+            {
                 2 + usize::from(self.word_at(2) == Some("one"))
             }
             _ => return false,
@@ -110,6 +119,23 @@ impl<'a> Parser<'a> {
         clause.places.push(Place::new(relation, "to", phrase));
         self.position += length;
         true
+    }
+
+    /// "(the other) side of the desk": a part of what is named behind it.
+    fn part_follows(&self, offset: usize) -> bool {
+        let part = self.word_at(offset).is_some_and(|word| self.lexicon.is_small("parts", &[word]));
+        part && self.word_at(offset + 1) == Some("of")
+    }
+
+    /// "between the vase and the shaker": both only say where.
+    fn other_end(&mut self) {
+        let start = self.position;
+        if self.peek() == Some("and") {
+            self.position += 1;
+            if self.clause_starts_here(false) || self.phrase(0).is_none() {
+                self.position = start;
+            }
+        }
     }
 
     /// "out", "off" or "switched off" at the end of what is said: of a light, not of a place.

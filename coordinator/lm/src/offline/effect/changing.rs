@@ -8,7 +8,7 @@ use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
 use super::{Change, Interpreter};
 
 impl<'a> Interpreter<'_, 'a> {
-    pub(super) fn set(&mut self, clause: &Clause<'a>, verb: &Verb) -> Spoken {
+    pub(super) fn set(&mut self, clause: &Clause<'a>, verb: &Verb, next: Option<&Clause<'a>>) -> Spoken {
         if verb.set.get("isToggled") == Some(&super::super::yes()) && clause.places.iter().any(is_a_while) {
             let text = format!("\"{}\" does not last, so it is no goal", clause.text);
             self.discourse.assume(text, 0.98);
@@ -46,12 +46,29 @@ impl<'a> Interpreter<'_, 'a> {
         {
             self.stay_where_cut(clause, verb, &changed);
         }
+        if next.is_none() {
+            self.stay_where_it_was_said_to_be(clause, verb, &changed);
+        }
         self.put_down_tools(verb);
         self.hold_what_is_with(clause, verb);
         let places = self.places_spoken_of(&clause.places);
         // "turn on the stove and put the pan on it": not on its knob.
         let reached = objects.into_iter().filter(|entity| !changed.contains(entity)).collect();
         Spoken { objects: changed, places, reached, ..Spoken::default() }
+    }
+
+    /// "heat the water in the mug": the mug is heated.
+    pub(super) fn lies_in_a_vessel(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
+        let scene = self.discourse.scene;
+        let vessel = |place: &Place| {
+            place.relation == Relation::In
+                && matches!(&place.phrase.head, Head::Noun(noun)
+                    if noun.kinds.iter().any(|kind| scene.affords(kind, "canFillWithLiquid")))
+        };
+        let at = clause.places.iter().position(vessel)?;
+        let mut heated = clause.clone();
+        heated.objects = vec![heated.places.remove(at).phrase];
+        Some(heated)
     }
 
     /// What was spoken of last and holds liquids.

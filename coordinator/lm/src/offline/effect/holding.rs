@@ -1,6 +1,7 @@
 //! What is held or looked at in the end.
 
 use super::{Change, Interpreter, is_lamp};
+use crate::offline::lexicon::{Act, Verb};
 use crate::offline::mention::Spoken;
 use crate::offline::syntax::{Clause, Head, Place, Relation};
 
@@ -26,8 +27,13 @@ impl<'a> Interpreter<'_, 'a> {
             let to = at.remove(goal);
             return self.put(clause, &at, &to);
         }
-        let by_light =
-            |place: &Place| is_lamp(&place.phrase) && (place.under || place.relation == Relation::With);
+        let held_up = clause.verb_text.starts_with("hold");
+        let by_light = |place: &Place| {
+            is_lamp(&place.phrase)
+                && (place.under
+                    || place.relation == Relation::With
+                    || held_up && place.relation == Relation::Near)
+        };
         if clause.places.iter().any(by_light) {
             return self.examine(clause);
         }
@@ -109,12 +115,38 @@ impl<'a> Interpreter<'_, 'a> {
         let mut places = Vec::new();
         if let Some(light) = light {
             self.lamp_wanted = true;
-            let phrase = self.with_lamps_first(&light.phrase);
+            let phrase = self.with_lamps_first(&light.phrase, &[]);
             places = self.discourse.mention(&phrase, &[], Some("toggleable"));
             for &lamp in &places {
                 self.add(lamp, Change::State("isToggled".to_owned(), crate::offline::yes()));
             }
         }
         Spoken { objects, places, placed: false, ..Spoken::default() }
+    }
+
+    /// A tool is no goal, except a lamp that is used to look at something.
+    pub(super) fn use_tool(&mut self, clause: &Clause<'a>, next: Option<&Clause<'a>>) -> Spoken {
+        let examines = next.is_some_and(|next| next.verbs.iter().any(|verb| verb.act == Act::Examine));
+        let on = |verb: &Verb| verb.set.get("isToggled") == Some(&crate::offline::yes());
+        let lights = |next: &Clause<'a>| next.objects.iter().any(is_lamp) && next.verbs.iter().any(|v| on(v));
+        // "use the book to turn on the lamp": it is in the hand that does.
+        if next.is_some_and(lights) && clause.objects.iter().any(|phrase| self.is_movable(phrase)) {
+            return self.hold(clause);
+        }
+        if !examines {
+            // "use the spray and the cloth to clean the mirror, then put them away"
+            let reached =
+                clause.objects.iter().filter(|phrase| self.is_movable(phrase)).cloned().collect::<Vec<_>>();
+            let reached =
+                reached.iter().flat_map(|phrase| self.discourse.mention(phrase, &[], None)).collect();
+            return Spoken { reached, ..Spoken::default() };
+        }
+        let lamps = self.objects(clause, &clause.places, Some("toggleable"));
+        for &lamp in &lamps {
+            if self.discourse.scene.affords(self.discourse.entities[lamp].kind(), "toggleable") {
+                self.add(lamp, Change::State("isToggled".to_owned(), crate::offline::yes()));
+            }
+        }
+        Spoken { places: lamps, ..Spoken::default() }
     }
 }

@@ -16,6 +16,9 @@ impl<'a> Interpreter<'_, 'a> {
         if !clause.complement.is_empty() && clause.places.is_empty() {
             return self.keep(clause);
         }
+        if let Some(taken) = self.thrown_away_from(clause, verb) {
+            return self.place(&taken, verb, next);
+        }
         if let Some(laid) = self.laid_with(clause) {
             return self.place(&laid, verb, next);
         }
@@ -25,6 +28,9 @@ impl<'a> Interpreter<'_, 'a> {
         let (goal, inner, at) = self.sort_places(clause);
         if let Some(goal) = goal {
             if let Some(inner) = inner {
+                if next.is_some_and(|next| moves_on(&inner, next)) {
+                    return self.put(clause, &at, &inner);
+                }
                 return self.put_nested(clause, &at, &inner, &goal);
             }
             if let Some(under) = self.is_said_to_stand(&goal) {
@@ -107,6 +113,20 @@ impl<'a> Interpreter<'_, 'a> {
         Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
     }
 
+    /// "throw away the bottle on the counter": from there.
+    fn thrown_away_from(&self, clause: &Clause<'a>, verb: &Verb) -> Option<Clause<'a>> {
+        let bin = |place: &Place| matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| kind == "GarbageCan"));
+        let lies = |place: &Place| place.relation == Relation::In;
+        let said = verb.act == Act::Discard && clause.places.iter().any(lies);
+        (said && !clause.places.iter().any(bin)).then(|| {
+            let mut taken = clause.clone();
+            for place in taken.places.iter_mut().filter(|place| lies(place)) {
+                place.relation = Relation::From;
+            }
+            taken
+        })
+    }
+
     /// "in a box that is on a chair": the box is on the chair in the end.
     fn is_said_to_stand(&self, goal: &Place) -> Option<Place> {
         let scene = self.discourse.scene;
@@ -163,29 +183,6 @@ impl<'a> Interpreter<'_, 'a> {
         })
     }
 
-    /// "go to the fridge and open it": going is no goal, but "it" is the fridge.
-    pub(super) fn go(&mut self, clause: &Clause<'a>, next: Option<&Clause<'a>>) -> Spoken {
-        let is_pronoun = |phrase: &Phrase| matches!(phrase.head, Head::Pronoun { .. });
-        let Some(wants) = next
-            .filter(|next| next.objects.iter().any(is_pronoun))
-            .and_then(|next| next.verbs.iter().find_map(|verb| verb.wants.as_deref()))
-            .filter(|wants| ["openable", "toggleable"].contains(wants))
-        else {
-            let reached = self.receptacles_spoken_of(clause);
-            return Spoken { reached, ..Spoken::default() };
-        };
-        let scene = self.discourse.scene;
-        let fits = |phrase: &Phrase| match &phrase.head {
-            Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.affords(kind, wants)),
-            Head::Named(_) => true,
-            _ => false,
-        };
-        let target = clause.places.iter().map(|place| &place.phrase).chain(&clause.objects).find(|p| fits(p));
-        let places =
-            target.map(|phrase| self.discourse.mention(phrase, &[], Some(wants))).unwrap_or_default();
-        Spoken { places, ..Spoken::default() }
-    }
-
     /// The receptacles that a clause names, for "in it" later.
     pub(super) fn receptacles_spoken_of(&mut self, clause: &Clause<'a>) -> Vec<usize> {
         let scene = self.discourse.scene;
@@ -223,8 +220,9 @@ impl<'a> Interpreter<'_, 'a> {
         };
         let relation = |i: usize| clause.places[i].relation;
         let compartment = |i: usize| {
-            matches!(&clause.places[i].phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|k| {
-                scene.has(k) && self.discourse.lexicon.is_small("compartments", &[&k.to_lowercase()])
+            matches!(&clause.places[i].phrase.head, Head::Noun(noun)
+            if noun.kinds.iter().find(|k| scene.has(k)).or(noun.kinds.first()).is_some_and(|k| {
+                self.discourse.lexicon.is_small("compartments", &[&k.to_lowercase()])
             }))
         };
         // "on the top shelf inside the fridge": a part of the fridge.
@@ -235,7 +233,10 @@ impl<'a> Interpreter<'_, 'a> {
         let (goal, inner) = match goals.as_slice() {
             [.., a, b] if movable(*a) && !movable(*b) => (*b, Some(*a)),
             [a, b] if compartment(*a) && shelves_of_its_own(*b) => (*b, None),
+            [a, b] if shelves_of_its_own(*a) && compartment(*b) => (*a, None),
             [a, b] if compartment(*a) && !compartment(*b) && relation(*b) == Relation::In => (*a, None),
+            // "in a cabinet over the sink"
+            [a, b] if compartment(*a) && clause.places[*b].over => (*a, None),
             _ => (to.unwrap_or(last), None),
         };
         let at = (0..clause.places.len())
@@ -255,6 +256,7 @@ impl<'a> Interpreter<'_, 'a> {
         if let (Head::Noun(noun), false) = (&mut goal.phrase.head, defaults.is_empty()) {
             noun.kinds.sort_by_key(|kind| !defaults.contains(&kind));
         }
+        self.sort_by_top(&mut goal);
         let mut places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
         if matches!(goal.phrase.head, Head::Pronoun { .. })
             && places.iter().any(|place| objects.contains(place))
@@ -329,9 +331,24 @@ impl<'a> Interpreter<'_, 'a> {
         self.discourse.assume(text, 0.97);
     }
 
+    /// What is put "on" a cabinet is put on what has a top rather than in what has a door, and "in" a dresser means in a
+    /// drawer.
+    fn sort_by_top(&self, place: &mut Place) {
+        let scene = self.discourse.scene;
+        let Head::Noun(noun) = &mut place.phrase.head else { return };
+        let takes = |kind: &str| scene.affords(kind, "receptacle") && !scene.affords(kind, "pickupable");
+        let opens = |kind: &str| scene.affords(kind, "openable");
+        let fits = |kind: &str| takes(kind) && opens(kind) == place.within;
+        if !noun.class && (place.upon || place.within) && noun.kinds.iter().any(|kind| fits(kind)) {
+            noun.kinds.sort_by_key(|kind| takes(kind) && !fits(kind));
+        }
+    }
+
     /// "a spoon in a cup on the table": the spoon in the cup, and the cup on the table.
     fn put_nested(&mut self, clause: &Clause<'a>, at: &[Place], inner: &Place, goal: &Place) -> Spoken {
         let spoken = self.put(clause, at, inner);
+        let mut goal = goal.clone();
+        self.sort_by_top(&mut goal);
         let places = self.discourse.mention(&goal.phrase, &[], Some("receptacle"));
         if let (Some(&carrier), Some(&place)) = (spoken.places.first(), places.first()) {
             self.put_in(carrier, place);
@@ -384,8 +401,11 @@ impl<'a> Interpreter<'_, 'a> {
         let mut surfaces = self.discourse.lexicon.beside(reference.as_deref());
         let likely = surfaces.find(|kind| scene.surely_accepts(kind, &thing));
         let kinds = self.discourse.entities[first].kinds.clone();
+        let likes = |kind| self.discourse.lexicon.likes(kind).iter().map(String::as_str);
         let chosen = under
-            .filter(|place| kinds.iter().any(|kind| scene.accepts(place, kind)))
+            .into_iter()
+            .flat_map(|place| std::iter::once(place).chain(likes(place)))
+            .find(|place| kinds.iter().any(|kind| scene.accepts(place, kind)))
             .or(stands.as_deref())
             .or(stands_on)
             .or(likely)
@@ -455,4 +475,17 @@ impl<'a> Interpreter<'_, 'a> {
 fn is_left_alone(clause: &Clause<'_>) -> bool {
     let left = clause.verb_text == "leave" && !clause.objects.is_empty();
     left && clause.places.is_empty() && clause.complement.is_empty() && !clause.back
+}
+
+/// "put the spoon in the bowl in the fridge and put the bowl on the table": the bowl was in the fridge and goes elsewhere.
+fn moves_on(inner: &Place, next: &Clause<'_>) -> bool {
+    let goes = |place: &Place| matches!(place.relation, Relation::In | Relation::To);
+    let same = |phrase: &Phrase| match (&phrase.head, &inner.phrase.head) {
+        (Head::Noun(a), Head::Noun(b)) => a.word == b.word,
+        (Head::Pronoun { plural }, _) => !plural,
+        _ => false,
+    };
+    next.verbs.iter().any(|verb| matches!(verb.act, Act::Place | Act::Hold))
+        && next.places.iter().any(goes)
+        && matches!(next.objects.as_slice(), [phrase] if same(phrase))
 }

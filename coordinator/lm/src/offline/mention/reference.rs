@@ -180,6 +180,13 @@ impl Discourse<'_> {
         }
         found.truncate(wanted);
         found.sort_unstable();
+        // "put the fork in the bowl and move both of them to the sink": the bowl, with what is in it.
+        let placed = self.spoken.last().filter(|last| last.placed && wanted == 2 && found.len() < 2);
+        if let Some(place) = placed.and_then(|last| last.places.first().copied())
+            && able(self, place)
+        {
+            return vec![place];
+        }
         if found.is_empty() || wanted != usize::MAX && found.len() < wanted {
             self.problem(format!("it is not said what \"{}\" are", phrase.text), 0.3);
         }

@@ -66,6 +66,7 @@ impl Parser<'_> {
         }
         !noun.class
             && !self.is_compartment(noun)
+            && !self.is_compartment(next)
             && noun.kinds.first().is_some_and(|kind| self.scene.has(kind) && next.kinds.contains(kind))
     }
 

@@ -182,7 +182,9 @@ impl Parser<'_> {
         if let Some((_, length)) = preposition(&self.rest()) {
             match self.word_at(length) {
                 Some("it" | "them") => self.position += length + 1,
-                next if next.is_none_or(|w| preposition(&[w]).is_some()) && self.peek() == Some("inside") => {
+                next if next.is_none_or(|w| [".", ","].contains(&w) || preposition(&[w]).is_some())
+                    && self.peek() == Some("inside") =>
+                {
                     self.position += length;
                 }
                 _ => {}

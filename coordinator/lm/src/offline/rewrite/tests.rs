@@ -215,3 +215,22 @@ fn what_is_put_in_between_changes_nothing() {
         assert_eq!(plain(said), meant);
     }
 }
+
+#[test]
+fn slips_that_are_words_are_mended() {
+    for (said, meant) in [
+        ("take the pen and put in on the desk", "take the pen and put it on the desk"),
+        ("put in it the drawer", "put it in the drawer"),
+        ("move to forks to the sink", "move two forks to the sink"),
+        ("the over cooked egg", "the cooked egg"),
+        ("put the cup in the fridge, then the sink", "put the cup in the fridge , then put it in the sink"),
+        (
+            "move the pot to the fridge and to the stove",
+            "move the pot to the fridge and then put it to the stove",
+        ),
+        ("move the cup from the fridge to the sink", "move the cup from the fridge to the sink"),
+        ("move to the sink", "move to the sink"),
+    ] {
+        assert_eq!(plain(said), meant);
+    }
+}

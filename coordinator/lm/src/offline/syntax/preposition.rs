@@ -3,7 +3,16 @@
 use super::Relation;
 
 /// Prepositions, the longer first.
-const PREPOSITIONS: [(&str, Relation); 85] = [
+const PREPOSITIONS: [(&str, Relation); 94] = [
+    ("along side of", Relation::Near),
+    ("along side", Relation::Near),
+    ("alongside", Relation::Near),
+    ("at the side of", Relation::Near),
+    ("on each side of", Relation::Near),
+    ("on either side of", Relation::Near),
+    ("on both sides of", Relation::Near),
+    ("in the front of", Relation::Near),
+    ("on top the", Relation::In),
     ("next the", Relation::Near),
     ("next a", Relation::Near),
     ("beside of", Relation::Near),
@@ -148,6 +157,7 @@ fn may_begin_one(word: &str) -> bool {
             | "adjacent"
             | "against"
             | "along"
+            | "alongside"
             | "among"
             | "around"
             | "at"
