@@ -138,9 +138,7 @@ fn joined_orders_are_all_understood() {
     println!("joined orders: {good} of {}", outcomes.len());
     let told: String = bad
         .iter()
-        .map(|outcome| {
-            format!("{}\n    want {}\n    {}\n", outcome.sentence, outcome.goal, outcome.told)
-        })
+        .map(|outcome| format!("{}\n    want {}\n    {}\n", outcome.sentence, outcome.goal, outcome.told))
         .collect();
     assert!(good * 100 >= outcomes.len() * LEAST, "{good} of {}\n{told}", outcomes.len());
 }

@@ -14,7 +14,7 @@ use crate::Request;
 
 /// How much it counts that a noun is a type's own name, in tenths of a natural logarithm. Those who know what the
 /// scene calls things mean what they say, so it is more than what crowd writers, who only see them, would make of it.
-const OWN_NAME: i32 = 80;
+const OWN_NAME: i32 = 50;
 
 /// Words farther away say nothing.
 const REACH: usize = 20;

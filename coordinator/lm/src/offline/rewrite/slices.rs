@@ -17,6 +17,7 @@ impl Rewriting<'_> {
                 let _ = self.tipped_in(index) || self.used_to_hold(index) || self.by_cutting(index);
             }
             self.sliced_things(index);
+            self.of_several(index);
             let _ = self.filled_with_things(index) || self.made_into_slices(index);
             index += 1;
         }
@@ -62,6 +63,50 @@ impl Rewriting<'_> {
         order.extend(self.words(index..is));
         self.say_all(index, end + goes, &order);
         true
+    }
+
+    /// Whether the noun of one word at a place is food that is cut.
+    fn is_cut_food(&self, at: usize) -> bool {
+        const FOOD: [&str; 6] = ["Apple", "Bread", "Egg", "Lettuce", "Potato", "Tomato"];
+        let noun = self.lexicon.noun(&[self.at(at)]);
+        noun.is_some_and(|(noun, _)| noun.kinds.first().is_some_and(|kind| FOOD.contains(&kind.as_str())))
+    }
+
+    /// "tomato and potato slices", "pieces of the tomato and the potato", "the sliced tomato and potato": of both; "slices
+    /// from the tomato": of it.
+    fn of_several(&mut self, index: usize) {
+        if index > 1
+            && self.is_part(index)
+            && self.is_cut_food(index - 1)
+            && self.at(index - 2) == "and"
+            && index > 2
+            && self.is_cut_food(index - 3)
+        {
+            self.say(index - 2, index - 2, &["slices"]);
+            return;
+        }
+        if self.is_part(index) && self.at(index + 1) == "from" {
+            let the = usize::from(is_determiner(self.at(index + 2)));
+            if self.is_cut_food(index + 2 + the) {
+                self.say(index + 1, index + 2, &["of"]);
+            }
+        }
+        let of = self.is_part(index) && self.at(index + 1) == "of";
+        let sliced =
+            self.lexicon.adjective(&[self.at(index)]).is_some_and(|state| state.set.contains_key("isSliced"))
+                && self.is_cut_food(index + 1);
+        let the = usize::from(of && is_determiner(self.at(index + 2)));
+        let first = if of { index + 2 + the } else { index + 1 };
+        if !(of && self.is_cut_food(first) || sliced) || self.at(first + 1) != "and" {
+            return;
+        }
+        let another = usize::from(is_determiner(self.at(first + 2)));
+        let second = first + 2 + another;
+        let ends = self.is_place(second + 1) || self.is_mark(second + 1) || is_going(self.at(second + 1));
+        if self.is_cut_food(second) && ends && (of || another == 0) {
+            let word = if of { vec!["slices", "of"] } else { vec!["sliced"] };
+            self.say(first + 2, first + 2, &word);
+        }
     }
 
     /// "all the sliced food", where something was to be sliced: its slices.
