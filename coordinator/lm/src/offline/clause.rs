@@ -191,6 +191,8 @@ impl<'a> Parser<'a> {
         self.switches = clause.verbs.is_empty()
             || clause.verbs.iter().any(|verb| verb.act == Act::Keep)
             || self.lexicon.verbs(first).iter().any(|(_, _, v)| v.wants.as_deref() == Some("toggleable"));
+        // "turn on the microwave, light off": its particle is said.
+        self.switches &= !clause.verb_text.ends_with(" on") && !clause.verb_text.ends_with(" off");
         self.wants = clause.verbs.first().and_then(|verb| verb.wants.as_deref());
         self.arguments(&mut clause, start);
         (self.wants_place, self.switches, self.acts) = (false, true, false);
