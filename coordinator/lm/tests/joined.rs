@@ -107,15 +107,16 @@ fn sentence(orders: &[Order], random: &mut Random) -> String {
         }
         drawn.push(number);
         used.extend(kinds);
-        said.push(named(random.pick(&order.said), thing.0, other.0));
+        let way: &'static str = random.pick::<&'static str>(&order.said);
+        said.push(named(way, thing.0, other.0));
         goals.push(named(order.goal, thing.1, other.1));
         if said.len() == count {
             break;
         }
     }
-    let mut text = random.pick(&SHELLS).to_string();
+    let mut text = (*random.pick::<&'static str>(&SHELLS)).to_owned();
     for (at, order) in said.iter().enumerate() {
-        let joint = if at == 0 { "" } else { *random.pick(&JOINTS) };
+        let joint = if at == 0 { "" } else { *random.pick::<&'static str>(&JOINTS) };
         text.push_str(joint);
         text.push_str(order);
     }

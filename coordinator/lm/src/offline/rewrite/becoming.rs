@@ -196,15 +196,21 @@ impl Rewriting<'_> {
             self.say(index, index + 4, &["to", &state]);
         }
         // "set the burner on high", "put the toaster to use"
-        let set = (start..index).any(|at| ["turn", "put", "set", "switch", "get", "bring"].contains(&self.at(at)));
+        let set =
+            (start..index).any(|at| ["turn", "put", "set", "switch", "get", "bring"].contains(&self.at(at)));
         let level = match (self.at(index), self.at(index + 1), self.at(index + 2)) {
-            ("on" | "to" | "at", "high" | "low" | "medium" | "full" | "max", "heat" | "power" | "flame" | "blast") => 3,
+            (
+                "on" | "to" | "at",
+                "high" | "low" | "medium" | "full" | "max",
+                "heat" | "power" | "flame" | "blast",
+            ) => 3,
             ("on" | "to" | "at", "high" | "low" | "medium" | "full" | "max", _) => 2,
             ("to" | "into", "use" | "work" | "operation" | "action", _) => 2,
             ("in", "motion" | "operation" | "action", _) => 2,
             _ => 0,
         };
-        let ends = self.is_mark(index + level) || ["and", "then", "while", "with"].contains(&self.at(index + level));
+        let ends =
+            self.is_mark(index + level) || ["and", "then", "while", "with"].contains(&self.at(index + level));
         if set && level > 0 && ends && index > 0 && self.noun_before(index).is_some() {
             self.say(index, index + level, &["on"]);
             return true;

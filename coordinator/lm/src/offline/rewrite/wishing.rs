@@ -122,8 +122,9 @@ impl Rewriting<'_> {
                 || self.lexicon.adjective(&[self.at(at)]).is_some_and(|said| said.set.keys().any(alike))
         };
         let pronoun = (clause..index).any(|at| ["it", "them", "both", "everything"].contains(&self.at(at)));
-        let earlier = if pronoun || named.as_ref().is_some_and(mentioned) { 0 } else { clause };
-        state.selects || (earlier..index).any(said)
+        let earlier = if named.as_ref().is_some_and(mentioned) { 0 } else { clause };
+        // "put it away once it is clean": what "it" is may well be said to be washed elsewhere.
+        state.selects || pronoun || (earlier..index).any(said)
     }
 
     /// "the cup the plate and the fork": a list without commas; "the kitchen's clock": the clock.
