@@ -104,6 +104,8 @@ impl Rewriting<'_> {
         if goes(self.at(verb)) && ["off", "on", "out", "dark"].contains(&state.as_str()) && ends {
             let state = if state == "dark" { "off" } else { &state };
             self.say(index, verb + 2, &["should", "be", state]);
+        } else if shall && self.at(index + 1) == "stop" && self.is_mark(index + 2) {
+            self.say(index, index + 2, &["should", "be", "off"]);
         } else if shall && self.starts(index + 1, &["be", "going"]) {
             self.say(index + 2, index + 3, &["on"]);
         } else if shall
@@ -288,6 +290,16 @@ impl Rewriting<'_> {
     fn let_cool(&mut self, index: usize) -> bool {
         let cools = ["cool", "chill", "warm", "heat"].contains(&self.at(index));
         let start = self.clause_start(index);
+        // "make the shower stop"
+        let makes = (start..index).rev().find(|&at| ["make", "let", "get"].contains(&self.at(at)));
+        let to = usize::from(index > 0 && self.at(index - 1) == "to");
+        if let Some(makes) = makes.filter(|_| {
+            self.at(index) == "stop" && self.is_mark(index + 1) && self.noun_before(index - to).is_some()
+        }) {
+            self.say(index - to, index + 1, &[]);
+            self.say(makes, makes + 1, &["turn", "off"]);
+            return true;
+        }
         let lets = (start..index).rev().find(|&at| self.at(at) == "let");
         if let Some(lets) = lets.filter(|_| cools && self.noun_before(index).is_some()) {
             let way = usize::from(["down", "off", "up"].contains(&self.at(index + 1)));
