@@ -176,6 +176,12 @@ fn constructions(sentence: &str) -> String {
 /// What kind of thing a question is about; of what cannot change, also what sort it is and what it lacks.
 fn told(text: &str, objects: &[ObjectView]) -> String {
     let about = about(text);
+    // What sort of thing has no place: of what is quoted, the type that is named in it.
+    let quoted: String = text.split('"').nth(1).unwrap_or_default().replace(' ', "").to_lowercase();
+    let named = objects.iter().find(|object| quoted.contains(&object.kind.to_lowercase()));
+    if about == "a place left out" {
+        return format!("{about} ({})", named.map_or("?", |object| sort(&object.kind, objects)));
+    }
     let kind = text.split(['(', ')']).nth(1).filter(|_| text.contains(") is not "));
     match (kind, text.rsplit(' ').next()) {
         (Some(kind), Some(lacking)) => format!("{about} ({}, {lacking})", sort(kind, objects)),

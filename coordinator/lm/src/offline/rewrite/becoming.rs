@@ -28,6 +28,7 @@ impl Rewriting<'_> {
                 || self.having_it_somewhere(index)
                 || self.in_a_position(index)
                 || self.darkened(index)
+                || self.started(index)
                 || self.given_a_wash(index)
                 || self.let_cool(index);
             index += 1;
@@ -223,6 +224,46 @@ impl Rewriting<'_> {
             self.say(index, index + 1, &[]);
         }
         position || to
+    }
+
+    /// "set the oven to heat up", "get the coffee maker going": turn it on; "bring the lights down": turn them off.
+    fn started(&mut self, index: usize) -> bool {
+        const DEVICES: [&str; 5] = ["Microwave", "CoffeeMachine", "Toaster", "StoveBurner", "StoveKnob"];
+        const LET: [&str; 8] = ["set", "get", "have", "let", "leave", "keep", "make", "bring"];
+        const RUN: [&str; 18] = [
+            "run", "heat", "warm", "cook", "brew", "start", "work", "go", "going", "heating", "brewing",
+            "working", "cooking", "humming", "running", "online", "whirring", "warming",
+        ];
+        let noun =
+            (index + 3..index + 7).find(|&end| self.noun_before(end).is_some() && self.at(end) != "machine");
+        let Some(end) = noun.filter(|_| is_determiner(self.at(index + 1))) else { return false };
+        let words = self.words(index + 2..end);
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let kinds = self.lexicon.noun(&words).map(|(noun, _)| noun.kinds.clone()).unwrap_or_default();
+        let lights = words.last().is_some_and(|last| ["light", "lights", "lamps"].contains(last));
+        let dimmed = match (self.at(index), self.at(end)) {
+            ("bring" | "take" | "turn", "down") => 1,
+            ("put", "to") if ["rest", "sleep", "bed"].contains(&self.at(end + 1)) => 2,
+            ("set", "to") if self.at(end + 1) == "dark" => 2,
+            _ => 0,
+        };
+        if lights && dimmed > 0 {
+            self.say(end, end + dimmed, &[]);
+            self.say(index, index + 1, &["turn", "off"]);
+            return true;
+        }
+        let to = usize::from(self.at(end) == "to");
+        let run = end + to;
+        let up = usize::from(["up", "again"].contains(&self.at(run + 1)));
+        let ends = self.is_mark(run + 1 + up)
+            || ["and", "then", "while", "with", "before"].contains(&self.at(run + 1 + up));
+        let device = kinds.first().is_some_and(|kind| DEVICES.contains(&kind.as_str()));
+        let starts = device && LET.contains(&self.at(index)) && RUN.contains(&self.at(run)) && ends;
+        if starts {
+            self.say(end, run + 1 + up, &[]);
+            self.say(index, index + 1, &["turn", "on"]);
+        }
+        starts
     }
 
     /// "give the plate, the mug and the bowl a wash": wash them; "do the washing up: the plate, …": wash those.
