@@ -127,7 +127,11 @@ impl Rewriting<'_> {
                 self.say(lie, lie + self.lies_about(lie), &[]);
                 let all = self.the_or_all(lie);
                 self.say(index, index + 1, all);
-            } else if self.starts(index, &["the", "whole", "lot"]) && self.at(index + 3) != "of" {
+            } else if self.at(index) == "the"
+                && ["whole", "entire", "full"].contains(&self.at(index + 1))
+                && ["lot", "batch", "pile", "heap", "bunch", "load"].contains(&self.at(index + 2))
+                && self.at(index + 3) != "of"
+            {
                 self.say(index, index + 3, &["all", "of", "them"]);
             } else if self.starts(index, &["the", "lot"]) && self.at(index + 2) != "of" {
                 self.say(index, index + 2, &["all", "of", "them"]);

@@ -14,6 +14,7 @@ impl Rewriting<'_> {
             let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
             if opens {
                 let _ = self.where_they_go(index) || self.are_put(index) || self.all_of_the_slices(index);
+                let _ = self.thrown_in(index) || self.into_first(index);
                 let _ = self.tipped_in(index) || self.used_to_hold(index) || self.by_cutting(index);
             }
             self.sliced_things(index);
@@ -175,6 +176,37 @@ impl Rewriting<'_> {
             }
         }
         told
+    }
+
+    /// "take the pot and throw in all the slices": put them in it.
+    fn thrown_in(&mut self, index: usize) -> bool {
+        let throws = ["put", "throw", "toss", "add", "drop", "tip", "chuck", "place"]
+            .contains(&self.at(index))
+            && self.at(index + 1) == "in";
+        let end = self.all_parts(index + 2).or_else(|| {
+            ["both", "them", "everything", "all"].contains(&self.at(index + 2)).then_some(index + 3)
+        });
+        let Some(end) =
+            end.filter(|&end| throws && (self.is_mark(end) || ["and", "then"].contains(&self.at(end))))
+        else {
+            return false;
+        };
+        self.say(end, end, &["in", "it"]);
+        self.say(index, index + 2, &["put"]);
+        true
+    }
+
+    /// "into the pot, put all the slices": in the pot.
+    fn into_first(&mut self, index: usize) -> bool {
+        let comma = (index + 3..index + 6).find(|&at| self.at(at) == "," && self.noun_before(at).is_some());
+        let into = ["into", "onto"].contains(&self.at(index))
+            && is_determiner(self.at(index + 1))
+            && comma.is_some_and(|comma| self.is_order(comma + 1));
+        if into {
+            let word = if self.at(index) == "into" { "in" } else { "on" };
+            self.say(index, index + 1, &[word]);
+        }
+        into
     }
 
     /// "tip all the slices into the pot": put them in.
