@@ -102,11 +102,12 @@ fn tally(tally: &mut Tally, answer: &Answer, goal: &[GoalEntry], objects: &[Obje
     let causes: BTreeSet<String> = missing.iter().map(|fact| cause(fact, &got)).collect();
     let causes: Vec<String> = causes.into_iter().collect();
     note(format!(
-        "lacks {} of {}: {}\n      in {} sub-tasks; lacks {}; too much {}",
+        "lacks {} of {}: {}\n      in {} sub-tasks; wants {}; lacks {}; too much {}",
         missing.len(),
         wanted.len(),
         causes.join(", "),
         decomposition.subtasks.len(),
+        by_class(&wanted, objects),
         by_class(&missing, objects),
         by_class(&more, objects)
     ));

@@ -29,6 +29,7 @@ impl Rewriting<'_> {
                 || self.in_a_position(index)
                 || self.darkened(index)
                 || self.started(index)
+                || self.in_the_dark(index)
                 || self.given_a_wash(index)
                 || self.let_cool(index);
             index += 1;
@@ -224,6 +225,42 @@ impl Rewriting<'_> {
             self.say(index, index + 1, &[]);
         }
         position || to
+    }
+
+    /// "chill the wine, with the kitchen dark", "… in the dark": turn off the lights as well; "to keep cold": to chill.
+    fn in_the_dark(&mut self, index: usize) -> bool {
+        let room =
+            |at: usize| is_determiner(self.at(at)) && self.lexicon.is_small("rooms", &[self.at(at + 1)]);
+        let left = usize::from(["left", "kept"].contains(&self.at(index + 3)));
+        let dark = |at: usize| match (self.at(at), self.at(at + 1), self.at(at + 2)) {
+            ("in", "the", "dark") => 3,
+            ("in", "darkness", _) => 2,
+            ("dark" | "unlit", _, _) => 1,
+            _ => 0,
+        };
+        let (from, length) = if self.at(index) == "with" && room(index + 1) {
+            (index, 3 + left + dark(index + 3 + left))
+        } else if index > 0 && self.noun_before(index).is_some() && self.at(index) == "in" {
+            (index, dark(index))
+        } else {
+            (index, 0)
+        };
+        let told = if self.at(from) == "with" { length > 3 + left } else { length > 0 };
+        if told && self.is_mark(from + length) {
+            let comma: &[&str] = if index > 0 && self.at(index - 1) == "," { &[] } else { &[","] };
+            let mut order = comma.to_vec();
+            order.extend(["turn", "off", "the", "lights"]);
+            self.say(from, from + length, &order);
+            return true;
+        }
+        let keeps = self.at(index) == "to"
+            && ["keep", "stay", "remain"].contains(&self.at(index + 1))
+            && ["cold", "cool", "chilled"].contains(&self.at(index + 2))
+            && (self.is_mark(index + 3) || ["and", "with", "while"].contains(&self.at(index + 3)));
+        if keeps {
+            self.say(index + 1, index + 3, &["chill"]);
+        }
+        keeps
     }
 
     /// "set the oven to heat up", "get the coffee maker going": turn it on; "bring the lights down": turn them off.

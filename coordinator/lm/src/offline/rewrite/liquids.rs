@@ -58,15 +58,20 @@ impl Rewriting<'_> {
 
     /// "keep the kettle filled with water", "let the pot hold water": fill it.
     fn kept_full(&mut self, index: usize) -> bool {
-        const KEEP: [&str; 9] =
-            ["keep", "leave", "make", "get", "have", "let", "supply", "provide", "ensure"];
+        const KEEP: [&str; 13] = [
+            "keep", "leave", "make", "get", "have", "let", "supply", "provide", "ensure", "leaving",
+            "keeping", "making", "getting",
+        ];
         let noun = (index + 3..index + 6).find(|&end| self.noun_before(end).is_some());
-        let Some(end) = noun.filter(|_| KEEP.contains(&self.at(index)) && is_determiner(self.at(index + 1)))
-        else {
+        // ", with the pot left full of water"
+        let company = self.at(index) == "with" && index > 0 && self.at(index - 1) == ",";
+        let keeps = KEEP.contains(&self.at(index)) || company;
+        let Some(end) = noun.filter(|_| keeps && is_determiner(self.at(index + 1))) else {
             return false;
         };
-        let how = match (self.at(end), self.at(end + 1)) {
-            ("filled" | "full" | "filling", "with" | "of") => 2,
+        let left = usize::from(["left", "kept", "still"].contains(&self.at(end)));
+        let how = match (self.at(end + left), self.at(end + left + 1)) {
+            ("filled" | "full" | "filling", "with" | "of") => 2 + left,
             ("hold" | "holds" | "holding" | "contain" | "contains" | "containing", _) => 1,
             ("with", _) => 1,
             _ => return false,
