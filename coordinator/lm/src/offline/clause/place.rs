@@ -221,6 +221,13 @@ impl<'a> Parser<'a> {
                 return;
             }
             let movable = self.is_movable(&phrase);
+            // "in the fridge, light switch down": nothing is put into a switch.
+            let holds_nothing = matches!(&phrase.head, Head::Noun(noun)
+                if !noun.class && self.has_affordance(noun, "toggleable") && !self.has_affordance(noun, "receptacle"));
+            if !movable && holds_nothing && matches!(relation, Relation::In | Relation::To) {
+                self.position = start;
+                return;
+            }
             if movable && relation != Relation::With {
                 clause.objects.push(phrase);
             } else {

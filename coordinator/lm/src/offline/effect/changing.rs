@@ -30,6 +30,12 @@ impl<'a> Interpreter<'_, 'a> {
             let switched = self.switched_for(entity, &verb.set);
             let target = self.switch_of(entity, switched.as_ref().unwrap_or(&verb.set));
             let states = switched.unwrap_or_else(|| self.discourse.adapted_states(target, verb));
+            if states.is_empty() && !verb.set.is_empty() {
+                // Never less than was said without saying so.
+                let entity = &self.discourse.entities[entity];
+                let text = format!("\"{}\" ({}) cannot change so", entity.text, entity.kind());
+                self.discourse.problem(text, 0.3);
+            }
             self.add_states(target, &states);
             self.discourse.entities[target].asked.extend(states);
             changed.push(target);

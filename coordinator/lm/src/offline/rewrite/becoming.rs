@@ -30,6 +30,7 @@ impl Rewriting<'_> {
                 || self.darkened(index)
                 || self.started(index)
                 || self.in_the_dark(index)
+                || self.heat_off(index)
                 || self.given_a_wash(index)
                 || self.let_cool(index);
             index += 1;
@@ -261,6 +262,30 @@ impl Rewriting<'_> {
             self.say(index + 1, index + 3, &["chill"]);
         }
         keeps
+    }
+
+    /// "turn off the heat", "the gas off": the stove; "ending with the burner off": with it off.
+    fn heat_off(&mut self, index: usize) -> bool {
+        let heat = self.at(index) == "the" && ["heat", "gas", "flame"].contains(&self.at(index + 1));
+        let start = self.clause_start(index);
+        let turns = (start..index).any(|at| ["turn", "cut", "kill", "shut", "switch"].contains(&self.at(at)));
+        let off = ["off", "out", "down"].contains(&self.at(index + 2));
+        if heat && (turns && (off || self.is_mark(index + 2)) || off && self.is_mark(index + 3)) {
+            self.say(index + 1, index + 2, &["stove"]);
+            return true;
+        }
+        // "the light switch down"
+        let flipped = index > 0 && self.at(index - 1) == "switch" && self.is_mark(index + 1);
+        if flipped && ["down", "up"].contains(&self.at(index)) {
+            let state = if self.at(index) == "down" { "off" } else { "on" };
+            self.say(index, index + 1, &[state]);
+            return true;
+        }
+        let ending = ["ending", "finishing"].contains(&self.at(index)) && self.at(index + 1) == "with";
+        if ending {
+            self.say(index, index + 1, &[]);
+        }
+        ending
     }
 
     /// "set the oven to heat up", "get the coffee maker going": turn it on; "bring the lights down": turn them off.
