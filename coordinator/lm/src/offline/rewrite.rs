@@ -25,6 +25,7 @@ mod slices;
 mod slips;
 mod speech;
 mod states;
+mod switching;
 mod timing;
 mod topic;
 mod whereabouts;
@@ -51,6 +52,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.slices();
     text.liquids();
     text.becoming();
+    text.switching();
     text.not_only();
     text.corrections();
     text.people();
