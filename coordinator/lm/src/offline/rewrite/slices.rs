@@ -14,7 +14,7 @@ impl Rewriting<'_> {
             let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
             if opens {
                 let _ = self.where_they_go(index) || self.are_put(index) || self.all_of_the_slices(index);
-                let _ = self.thrown_in(index) || self.into_first(index);
+                let _ = self.thrown_in(index) || self.vessel_first(index);
                 let _ = self.tipped_in(index) || self.used_to_hold(index) || self.by_cutting(index);
             }
             self.sliced_things(index);
@@ -197,7 +197,7 @@ impl Rewriting<'_> {
     }
 
     /// "into the pot, put all the slices": in the pot.
-    fn into_first(&mut self, index: usize) -> bool {
+    fn vessel_first(&mut self, index: usize) -> bool {
         let comma = (index + 3..index + 6).find(|&at| self.at(at) == "," && self.noun_before(at).is_some());
         let into = ["into", "onto"].contains(&self.at(index))
             && is_determiner(self.at(index + 1))
