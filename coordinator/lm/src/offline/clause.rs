@@ -301,6 +301,12 @@ impl<'a> Parser<'a> {
                 clause.link = if clause.link == Link::And { Link::While } else { clause.link };
                 continue;
             }
+            // "spread all slices evenly in the pan": how it is done is no goal.
+            let adverb = word.len() > 4 && word.ends_with("ly") && self.longest_noun().is_none();
+            if adverb && self.lexicon.adjective(&[word]).is_none() && self.verbs_here().is_none() {
+                self.position += 1;
+                continue;
+            }
             let phrases = self.phrases(0);
             if phrases.is_empty() {
                 if !is_function_word(word) && !self.lexicon.is_small("modifiers", &[word]) {

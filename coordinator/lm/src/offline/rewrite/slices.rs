@@ -17,6 +17,7 @@ impl Rewriting<'_> {
                 let _ = self.thrown_in(index) || self.vessel_first(index);
                 let _ = self.tipped_in(index) || self.used_to_hold(index) || self.by_cutting(index);
             }
+            self.waiting(index);
             self.sliced_things(index);
             self.of_several(index);
             let _ = self.filled_with_things(index) || self.made_into_slices(index);
@@ -64,6 +65,16 @@ impl Rewriting<'_> {
         order.extend(self.words(index..is));
         self.say_all(index, end + goes, &order);
         true
+    }
+
+    /// "leave every slice waiting in the pot": in the pot.
+    fn waiting(&mut self, index: usize) {
+        const HOW: [&str; 6] = ["sitting", "waiting", "lying", "resting", "ready", "aside"];
+        let before =
+            index > 0 && (self.is_part(index - 1) || ["both", "them", "it"].contains(&self.at(index - 1)));
+        if before && HOW.contains(&self.at(index)) && self.is_place(index + 1) {
+            self.say(index, index + 1, &[]);
+        }
     }
 
     /// Whether the noun of one word at a place is food that is cut.
