@@ -147,7 +147,7 @@ impl Rewriting<'_> {
 
     /// "… and have both in the bowl": put them there.
     fn having_it_somewhere(&mut self, index: usize) -> bool {
-        let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
+        let opens = self.opens_part(index);
         let all_of =
             usize::from(["all", "both"].contains(&self.at(index + 1)) && self.at(index + 2) == "of") * 2;
         let all_of = if ["slice", "slices", "pieces"].contains(&self.at(index + 2)) { 1 } else { all_of };

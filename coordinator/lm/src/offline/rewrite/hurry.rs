@@ -66,7 +66,7 @@ impl Rewriting<'_> {
     pub(super) fn orders_in_disguise(&mut self) {
         let mut index = 0;
         while index < self.tokens.len() {
-            let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
+            let opens = self.opens_part(index);
             let sliced = ["slice", "slices", "piece", "pieces"].contains(&self.at(index + 1));
             let counted = is_determiner(self.at(index)) || number(self.at(index)).is_some();
             if opens && counted && sliced && is_going(self.at(index + 2)) && self.is_place(index + 3) {

@@ -11,8 +11,7 @@ impl Rewriting<'_> {
         let mut index = 1;
         while index < self.tokens.len() {
             let comma = usize::from(self.at(index - 1) == ",");
-            let parts = self.lexicon.is_small("slices", &[self.at(index + 1).trim_end_matches('s')])
-                || ["halves", "pieces"].contains(&self.at(index + 1));
+            let parts = self.is_part(index + 1);
             if self.at(index) != "whose" || !parts || self.noun_before(index - comma).is_none() {
                 index += 1;
                 continue;

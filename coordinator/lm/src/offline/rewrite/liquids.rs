@@ -41,7 +41,7 @@ impl Rewriting<'_> {
         if self.at(index) == "with" && LIQUIDS.contains(&self.at(liquid)) && inside > 0 && ends {
             self.say(liquid + 1, liquid + 1 + inside, &["in", "it"]);
         }
-        let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
+        let opens = self.opens_part(index);
         let vessel = (index + 4..index + 7).find(|&at| self.noun_before(at).is_some() && self.is_mark(at));
         if let Some(end) = vessel.filter(|_| {
             opens

@@ -42,6 +42,16 @@ impl Rewriting<'_> {
         self.is_verb(at, VerbForm::Past) || ["put", "cut", "set"].contains(&self.at(at))
     }
 
+    /// Whether a part of a sentence may begin here: behind a mark, "and" or "then".
+    pub(super) fn opens_part(&self, index: usize) -> bool {
+        index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1))
+    }
+
+    /// Whether a word names parts of what was cut: "slice", "pieces", "halves".
+    pub(super) fn is_part(&self, at: usize) -> bool {
+        self.lexicon.is_small("slices", &[self.at(at).trim_end_matches('s')]) || self.at(at) == "halves"
+    }
+
     /// The words of a range, as they are now.
     pub(super) fn words(&self, range: std::ops::Range<usize>) -> Vec<String> {
         range.map(|at| self.at(at).to_owned()).collect()

@@ -1,6 +1,7 @@
 //! How something is said, put plainly: contractions, "can" after a noun, "is to be", "there is …", states of lists.
 
 use super::super::inflect::VerbForm;
+use super::liquids::LIQUIDS;
 use super::{LONGEST_ASIDE, Rewriting, SHALL};
 use crate::offline::clause::is_going;
 use crate::offline::syntax::{is_determiner, preposition};
@@ -319,7 +320,7 @@ impl Rewriting<'_> {
                 || ["contain", "contains", "hold", "holds"].contains(&self.at(index + shall))
                     && (is_determiner(self.at(index + shall + 1))
                         || shall == 1
-                        || ["water", "coffee", "wine"].contains(&self.at(index + shall + 1)));
+                        || LIQUIDS.contains(&self.at(index + shall + 1)));
             let told_apart = ["other", "former", "latter"].contains(&self.at(index - 1)) && gets;
             let vessel = self.noun_before(index).map_or(usize::from(told_apart), |noun| noun.len());
             let mut first = index - vessel;
@@ -333,7 +334,7 @@ impl Rewriting<'_> {
                 continue;
             };
             let things = index + shall + 1;
-            if ["water", "coffee", "wine"].contains(&self.at(things)) {
+            if LIQUIDS.contains(&self.at(things)) {
                 self.say(index, things, &["should", "be", "filled", "with"]);
                 continue;
             }

@@ -86,7 +86,7 @@ impl Rewriting<'_> {
     pub(super) fn particles_first(&mut self) {
         let mut index = 0;
         while index < self.tokens.len() {
-            let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
+            let opens = self.opens_part(index);
             let order = THROWN.iter().find(|(particle, _)| *particle == self.at(index));
             if let (true, Some((_, order))) = (opens, order)
                 && ["goes", "go", "comes", "come"].contains(&self.at(index + 1))

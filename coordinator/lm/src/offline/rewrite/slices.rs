@@ -1,6 +1,8 @@
 //! What is done with all that was cut, or with all at once: "every piece of either goes …", "load the pan with the
 //! slices", "the bowl is where the slices go", "turn the apple into slices".
 
+use std::ops::Range;
+
 use super::liquids::LIQUIDS;
 use super::{Rewriting, SHALL};
 use crate::offline::clause::is_going;
@@ -11,7 +13,7 @@ impl Rewriting<'_> {
     pub(super) fn slices(&mut self) {
         let mut index = 0;
         while index < self.tokens.len() {
-            let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
+            let opens = self.opens_part(index);
             if opens {
                 let _ = self.where_they_go(index) || self.are_put(index) || self.all_of_the_slices(index);
                 let _ = self.thrown_in(index) || self.vessel_first(index);
@@ -25,9 +27,20 @@ impl Rewriting<'_> {
         }
     }
 
-    /// Whether a word names parts of what was cut.
-    fn is_part(&self, at: usize) -> bool {
-        self.lexicon.is_small("slices", &[self.at(at).trim_end_matches('s')]) || self.at(at) == "halves"
+    /// Says of a range that things are put into a vessel, both named within it.
+    fn say_put_in(&mut self, all: Range<usize>, put: &str, things: Range<usize>, vessel: Range<usize>) {
+        let mut order = vec![put.to_owned()];
+        order.extend(self.words(things));
+        order.push("in".to_owned());
+        order.extend(self.words(vessel));
+        self.say_all(all.start, all.end, &order);
+    }
+
+    /// Where what is said here ends: at a mark, or before another order.
+    fn next_order(&self, from: usize) -> usize {
+        (from..self.tokens.len())
+            .find(|&at| self.is_mark(at) || ["and", "then"].contains(&self.at(at)) && self.is_order(at + 1))
+            .unwrap_or(self.tokens.len())
     }
 
     /// Where the words for all the slices end that begin here: "all of the slices", "each slice".
@@ -59,11 +72,7 @@ impl Rewriting<'_> {
         if there && goes == 0 || for_them && !self.is_part(end - 1) {
             return false;
         }
-        let mut order = vec!["put".to_owned()];
-        order.extend(self.words(is + 2..end));
-        order.push("in".to_owned());
-        order.extend(self.words(index..is));
-        self.say_all(index, end + goes, &order);
+        self.say_put_in(index..end + goes, "put", is + 2..end, index..is);
         true
     }
 
@@ -244,17 +253,11 @@ impl Rewriting<'_> {
             return false;
         };
         let holds = ["hold", "store", "collect", "contain", "keep", "gather"].contains(&self.at(to + 1));
-        let end = (to + 2..)
-            .find(|&at| self.is_mark(at) || ["and", "then"].contains(&self.at(at)) && self.is_order(at + 1))
-            .unwrap_or(to);
+        let end = self.next_order(to + 2);
         if !holds || end <= to + 2 {
             return false;
         }
-        let mut order = vec!["put".to_owned()];
-        order.extend(self.words(to + 2..end));
-        order.push("in".to_owned());
-        order.extend(self.words(index + 1..to));
-        self.say_all(index, end, &order);
+        self.say_put_in(index..end, "put", to + 2..end, index + 1..to);
         true
     }
 
@@ -289,9 +292,7 @@ impl Rewriting<'_> {
         }) else {
             return false;
         };
-        let end = (with + 1..)
-            .find(|&at| self.is_mark(at) || ["then", "and"].contains(&self.at(at)) && self.is_order(at + 1))
-            .unwrap_or(with);
+        let end = self.next_order(with + 1);
         let end = end - usize::from(self.at(end - 1) == "and");
         let parts =
             ["slices", "pieces", "slice", "piece", "them", "both", "everything"].contains(&self.at(end - 1));
@@ -300,17 +301,14 @@ impl Rewriting<'_> {
         if !parts && !things {
             return false;
         }
-        let mut order = vec![if gerund { "putting" } else { "put" }.to_owned()];
-        order.extend(self.words(with + 1..end));
-        order.push("in".to_owned());
-        order.extend(self.words(index + 1..with));
-        self.say_all(index, end, &order);
+        let put = if gerund { "putting" } else { "put" };
+        self.say_put_in(index..end, put, with + 1..end, index + 1..with);
         true
     }
 
     /// "turn the apple and the bread into slices": slice them.
     fn made_into_slices(&mut self, index: usize) -> bool {
-        let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
+        let opens = self.opens_part(index);
         let end = self.next_mark(index, &[",", "."]);
         let into = (index + 2..end).find(|&at| {
             self.at(at) == "into"

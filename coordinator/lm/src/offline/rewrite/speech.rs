@@ -223,7 +223,7 @@ impl Rewriting<'_> {
             index += 1;
         }
         for index in 0..self.tokens.len() {
-            let opens = index == 0 || [",", ".", "and", "then"].contains(&self.at(index - 1));
+            let opens = self.opens_part(index);
             if opens && self.at(index) == "either" && self.is_order(index + 1) {
                 self.say(index, index + 1, &[]);
             }
