@@ -9,12 +9,14 @@ mod clause;
 mod effect;
 mod ellipsis;
 mod emit;
+mod gist;
 mod gloss;
 mod inflect;
 mod lexicon;
 mod literal;
 mod mention;
 mod phrase;
+mod reading;
 mod rewrite;
 mod scene;
 mod sense;
@@ -30,7 +32,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use lamma_domains::goal::PropertyValue;
 
-use crate::{Answer, Clarification, Decomposition, LanguageModel, LmError, Request};
+use crate::{Answer, Decomposition, LanguageModel, LmError, Request};
 use clause::Parser;
 use effect::{Change, Fact, Interpreter};
 use emit::{Emitter, Stay};
@@ -41,6 +43,7 @@ use literal::{
     goes_on_about_it, is_concrete, is_mere_step, is_weak, only_goes, only_tells, says_state, says_where,
 };
 use mention::{Discourse, Spoken};
+use reading::Reading;
 use scene::Scene;
 pub use sense::{Clues, LooseNoun};
 use snapshot::Snapshot;
@@ -147,69 +150,11 @@ fn check_robots(decomposition: &mut Decomposition, team: &[crate::RobotView]) {
     }
 }
 
-/// A reading and what is wrong with it.
-struct Reading {
-    decomposition: Decomposition,
-    problems: Vec<String>,
-    /// Readings that were not preferred, best first.
-    others: Vec<Decomposition>,
-    /// Whether it only says where to go.
-    only_goes: bool,
-    /// Whether it says what to do to things of the scene, so that no situation stands for it.
-    concrete: bool,
-    /// How many clauses it was read from.
-    clauses: usize,
-}
-
-impl Reading {
-    /// Of what has no word in it that is known.
-    fn nothing(instruction: &str) -> Self {
-        Self {
-            decomposition: Decomposition::default(),
-            problems: vec![format!(
-                "I do not know what to do for \"{}\"",
-                text::shortened(&instruction.to_lowercase())
-            )],
-            others: Vec::new(),
-            only_goes: false,
-            concrete: false,
-            clauses: 0,
-        }
-    }
-
-    /// The answer to what was `said`.
-    fn answer(self, said: &str, assume: bool) -> Answer {
-        let Self { decomposition, problems, others, only_goes, .. } = self;
-        let empty = decomposition.subtasks.is_empty();
-        if !empty && (assume || decomposition.confidence >= THRESHOLD) {
-            let mut decomposition = decomposition;
-            decomposition.assumptions.extend(problems);
-            return Answer::Understood(decomposition);
-        }
-        let understood = decomposition.subtasks.iter().map(|subtask| subtask.text.clone()).collect();
-        let question = match problems.first() {
-            Some(problem) => format!("I cannot act on this yet: {problem}. What shall be done?"),
-            None if empty && !decomposition.assumptions.is_empty() => {
-                format!(
-                    "I found nothing to do: {}. What shall be true in the end?",
-                    decomposition.assumptions.join("; ")
-                )
-            }
-            None if empty && only_goes => {
-                "Going somewhere alone changes nothing that I can check. What shall be done there?".to_owned()
-            }
-            None if empty => format!("I found nothing to do in \"{said}\". What shall be true in the end?"),
-            None => "Is this what you mean?".to_owned(),
-        };
-        let all = std::iter::once(decomposition).chain(others);
-        let readings = all.filter(|reading| !reading.subtasks.is_empty()).take(3).collect();
-        Answer::Clarify(Clarification { question, understood, not_understood: problems, readings })
-    }
-}
-
 /// An instruction in plainer words.
 struct Plain {
     words: Vec<String>,
+    /// The words as they were said.
+    said: Vec<String>,
     /// What was taken for a slip of the pen, in words.
     repairs: Vec<String>,
     /// Mended words as they were typed, and as they are read.
@@ -232,15 +177,35 @@ fn plain(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Plain {
         .filter(|token| repairs.contains(&text::repair_note(token)))
         .map(|token| (token.typed.clone(), token.text.clone()))
         .collect();
+    let said = rewrite::written_out(tokens.clone(), lexicon);
+    let said = said.into_iter().map(|token| token.text).collect();
     let tokens = rewrite::rewritten(tokens, lexicon);
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
     let words = text::without_asides(words, lexicon);
-    Plain { words, repairs, typed, cut }
+    Plain { words, said, repairs, typed, cut }
+}
+
+/// A reading of the gist of what was said, if that leaves nothing open.
+fn in_short(said: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Option<Reading> {
+    let short = gist::gist(said, lexicon, scene)?.join(" ");
+    let tokens = rewrite::rewritten(text::tokens(&short), lexicon);
+    let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
+    let mut reading = word_by_word(&words, lexicon, scene);
+    if reading.asks() || !reading.problems.is_empty() {
+        return None;
+    }
+    reading.decomposition.confidence = reading.decomposition.confidence.min(reading::AS_A_GIST);
+    let short = short.replace(" .", ".");
+    reading
+        .decomposition
+        .assumptions
+        .insert(0, format!("took it in short as \"{}\"", short.trim_end_matches('.')));
+    Some(reading)
 }
 
 /// The best reading of an instruction: word by word, or as a situation where that explains more.
 fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
-    let Plain { words, repairs, typed, cut } = plain(instruction, lexicon, scene);
+    let Plain { words, said, repairs, typed, cut } = plain(instruction, lexicon, scene);
     if text::says_nothing(&words, lexicon, scene) {
         return Reading::nothing(instruction);
     }
@@ -268,6 +233,12 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
             Some(whole) => reading.others.push(whole.decomposition),
             None => {}
         }
+    }
+    if let Some(mut told) = in_short(&said, lexicon, scene)
+        && told.says_more_than(&reading)
+    {
+        told.others.push(reading.decomposition);
+        reading = told;
     }
     if cut < instruction.len() {
         reading.problems.push("the instruction is too long; only its beginning was read".to_owned());

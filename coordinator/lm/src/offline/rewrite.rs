@@ -139,6 +139,25 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.tokens
 }
 
+/// A sentence with its contractions written out, and nothing else changed.
+pub fn written_out(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
+    let mut text = Rewriting { tokens, lexicon };
+    let mut index = 0;
+    while index < text.tokens.len() {
+        // "it's": it is
+        let is = ["it", "that", "there", "what", "where", "here", "he", "she"].contains(&text.at(index))
+            && text.tokens[index].typed.to_lowercase().ends_with('s');
+        if is {
+            let word = text.at(index).to_owned();
+            text.say(index, index + 1, &[&word, "is"]);
+        }
+        index += 1;
+    }
+    text.contractions();
+    text.slips();
+    text.tokens
+}
+
 struct Rewriting<'l> {
     tokens: Vec<Token>,
     lexicon: &'l Lexicon,

@@ -1,0 +1,191 @@
+//! Where things go.
+
+use super::Gist;
+use super::chunk::{Chunk, Thing, Where};
+use super::saying::{self, Last};
+use crate::offline::syntax::Relation;
+
+impl Gist<'_> {
+    /// Something is said to be or go somewhere.
+    pub(super) fn placed(
+        &mut self,
+        at: usize,
+        relation: Relation,
+        preposition: &[String],
+        place: &Where,
+    ) -> Option<()> {
+        if self.taken.contains(&at) {
+            return Some(());
+        }
+        self.pending = None;
+        if let Where::At(thing) = place {
+            self.named = Some(thing.clone());
+        }
+        if relation == Relation::From || self.is_no_goal(at, relation, place) {
+            return Some(());
+        }
+        let (named, thing) = self.place_meant(relation, preposition, place)?;
+        if self.fills_it(thing.as_ref()) {
+            return Some(());
+        }
+        if relation == Relation::In && self.is_done_there(at) {
+            self.saying.there(&named);
+        } else if let Some(held) = self.is_about_a_place(at).cloned() {
+            if self.affords(&held, "pickupable") && thing.is_some() {
+                self.saying.put(std::slice::from_ref(&held), &named);
+            }
+            return Some(());
+        } else if self.is_said_first(at) {
+            (self.front, self.homeless) = (Some(named.clone()), None);
+            if matches!(self.chunk(at + 1), Some(Chunk::Join(false))) {
+                self.change_topic(thing.iter().cloned().collect());
+            }
+        } else if self.topic.iter().any(|thing| self.affords(thing, "pickupable")) {
+            self.put(&named);
+        } else {
+            return None;
+        }
+        self.place = Some((named, thing));
+        Some(())
+    }
+
+    /// Whether a place only says which thing is meant, where it is not to be, or what it is near where it is.
+    fn is_no_goal(&mut self, at: usize, relation: Relation, place: &Where) -> bool {
+        let near = relation == Relation::Near && self.homeless.is_none() && !self.fresh;
+        // "on the table next to the cup"
+        let put = matches!(self.saying.last, Some(Last::Place(_)));
+        if near && (put || !matches!(place, Where::At(_))) {
+            return true;
+        }
+        // "put the pot with the potato in it on the stove"
+        if std::mem::take(&mut self.contents) && matches!(place, Where::AtIt) {
+            return true;
+        }
+        let ignored = std::mem::take(&mut self.tells) || self.frozen || std::mem::take(&mut self.denied);
+        let ignored = ignored || self.only_tells_which(at);
+        if ignored {
+            self.homeless = None;
+        }
+        ignored
+    }
+
+    /// The place in words, and the thing that it is, if it is one.
+    fn place_meant(
+        &self,
+        relation: Relation,
+        preposition: &[String],
+        place: &Where,
+    ) -> Option<(Vec<String>, Option<Thing>)> {
+        let thing = match place {
+            Where::There => return self.place.clone(),
+            Where::At(thing) if thing.absent => return None,
+            Where::At(thing) => return Some((at_thing(preposition, thing), Some(thing.clone()))),
+            Where::AtIt if relation == Relation::Near => self.before.last()?.clone(),
+            Where::AtIt => {
+                // "the cup should have water in it"
+                let filled = self.topic.last().filter(|_| self.liquid.is_some());
+                let filled = filled.filter(|thing| self.affords(thing, "canFillWithLiquid")).cloned();
+                filled.or_else(|| self.holder())?
+            }
+        };
+        Some((at_thing(preposition, &again(&thing)), Some(thing)))
+    }
+
+    /// "water into the mug"
+    fn fills_it(&mut self, vessel: Option<&Thing>) -> bool {
+        let vessel = vessel.filter(|vessel| self.affords(vessel, "canFillWithLiquid"));
+        let Some(vessel) = vessel.filter(|_| self.liquid.is_some()).cloned() else { return false };
+        self.change_topic(vec![vessel]);
+        self.fill();
+        true
+    }
+
+    /// "cook the potato in the pan"
+    fn is_done_there(&self, at: usize) -> bool {
+        self.acted
+            && matches!(self.saying.last, Some(Last::Done(_)))
+            && matches!(self.chunk_before(at), Some(Chunk::Thing(_) | Chunk::Again(_) | Chunk::Act(_)))
+            && self.homeless.is_none()
+            && !self.fresh
+    }
+
+    /// "on the plate on the table": the plate is to be there.
+    fn is_about_a_place(&self, at: usize) -> Option<&'_ Thing> {
+        let Some(Chunk::Place(Relation::In | Relation::To, _, Where::At(held))) = self.chunk_before(at)
+        else {
+            return None;
+        };
+        let filled = self.topic == [held.clone()];
+        let put = filled || matches!(self.saying.last, Some(Last::Place(_)));
+        (put && !self.fresh && self.homeless.is_none()).then_some(held)
+    }
+
+    pub(super) fn put(&mut self, place: &[String]) {
+        self.saying.put(&self.topic, place);
+        self.said();
+    }
+
+    /// What something may be in or on that was spoken of: what was spoken of before, or where that went.
+    pub(super) fn holder(&self) -> Option<Thing> {
+        let place = self.place.iter().filter_map(|(_, thing)| thing.as_ref());
+        let known = self.before.iter().rev().chain(place).chain(self.topic.iter().rev());
+        known
+            .filter(|thing| self.affords(thing, "receptacle"))
+            .find(|thing| self.topic != [(*thing).clone()])
+            .cloned()
+    }
+
+    /// "on the bed there should be the book", not "the book on the bed, the ball …"
+    pub(super) fn is_said_first(&self, at: usize) -> bool {
+        let next = self.chunks.get(at + 1..).unwrap_or_default();
+        let said = |chunk: &&Chunk| {
+            matches!(
+                chunk,
+                Chunk::Wish
+                    | Chunk::Moves(_)
+                    | Chunk::Other(_)
+                    | Chunk::Place(_, _, Where::There)
+                    | Chunk::Tells
+            )
+        };
+        let things = matches!(next.iter().find(|chunk| !said(chunk)), Some(Chunk::Thing(_)));
+        let opens = matches!(
+            self.chunk_before(at),
+            None | Some(Chunk::Stop | Chunk::Join(_) | Chunk::But | Chunk::Moves(_))
+        );
+        // "into the box, left open, go …"
+        let first = matches!(self.chunk_before(at), None | Some(Chunk::Stop));
+        let until_thing = next.iter().take_while(|chunk| !matches!(chunk, Chunk::Thing(_) | Chunk::Stop));
+        let inserted = first
+            && matches!(next.first(), Some(Chunk::Join(false)))
+            && until_thing.clone().any(|chunk| matches!(chunk, Chunk::Wish))
+            && matches!(next.get(until_thing.count()), Some(Chunk::Thing(_)));
+        (things && opens || inserted) && !self.fresh && self.pending.is_none()
+    }
+
+    /// "the fork in the sink gets …", "the cup on the desk to the sink", "on the shelf you find …": where it is now.
+    pub(super) fn only_tells_which(&self, at: usize) -> bool {
+        let behind_thing = matches!(self.chunk_before(at), Some(Chunk::Thing(_)));
+        let told = matches!(self.chunk(at + 1), Some(Chunk::Tells)) && self.is_said_first(at);
+        told || behind_thing
+            && matches!(
+                self.chunk(at + 1),
+                Some(Chunk::Wish | Chunk::Place(Relation::In | Relation::To, _, Where::At(_)))
+            )
+    }
+}
+
+pub(super) fn at_thing(preposition: &[String], thing: &Thing) -> Vec<String> {
+    let mut words = preposition.to_vec();
+    words.extend(saying::name(thing));
+    words
+}
+
+/// A thing as it is named again: "a drawer", then "the drawer".
+pub(super) fn again(thing: &Thing) -> Thing {
+    let mut thing = thing.clone();
+    if ["a", "an", "one"].contains(&thing.words[0].as_str()) && thing.words.len() > 1 {
+        thing.words[0] = "the".to_owned();
+    }
+    thing
+}

@@ -1,0 +1,97 @@
+//! What was read, how sure it is, and which of two readings says more.
+
+use lamma_domains::goal::{Content, GoalEntry};
+
+use super::{THRESHOLD, text};
+use crate::{Answer, Clarification, Decomposition};
+
+/// How sure a reading is at most that was put together from parts.
+pub const AS_A_GIST: f64 = 0.6;
+
+/// A reading this sure is not replaced by a gist that says no more.
+const SURE_OF_ALL: f64 = 0.96;
+
+/// A reading and what is wrong with it.
+pub struct Reading {
+    pub decomposition: Decomposition,
+    pub problems: Vec<String>,
+    /// Readings that were not preferred, best first.
+    pub others: Vec<Decomposition>,
+    /// Whether it only says where to go.
+    pub only_goes: bool,
+    /// Whether it says what to do to things of the scene, so that no situation stands for it.
+    pub concrete: bool,
+    /// How many clauses it was read from.
+    pub clauses: usize,
+}
+
+impl Reading {
+    /// Of what has no word in it that is known.
+    pub fn nothing(instruction: &str) -> Self {
+        Self {
+            decomposition: Decomposition::default(),
+            problems: vec![format!(
+                "I do not know what to do for \"{}\"",
+                text::shortened(&instruction.to_lowercase())
+            )],
+            others: Vec::new(),
+            only_goes: false,
+            concrete: false,
+            clauses: 0,
+        }
+    }
+
+    /// The answer to what was `said`.
+    pub fn answer(self, said: &str, assume: bool) -> Answer {
+        let Self { decomposition, problems, others, only_goes, .. } = self;
+        let empty = decomposition.subtasks.is_empty();
+        if !empty && (assume || decomposition.confidence >= THRESHOLD) {
+            let mut decomposition = decomposition;
+            decomposition.assumptions.extend(problems);
+            return Answer::Understood(decomposition);
+        }
+        let understood = decomposition.subtasks.iter().map(|subtask| subtask.text.clone()).collect();
+        let question = match problems.first() {
+            Some(problem) => format!("I cannot act on this yet: {problem}. What shall be done?"),
+            None if empty && !decomposition.assumptions.is_empty() => {
+                format!(
+                    "I found nothing to do: {}. What shall be true in the end?",
+                    decomposition.assumptions.join("; ")
+                )
+            }
+            None if empty && only_goes => {
+                "Going somewhere alone changes nothing that I can check. What shall be done there?".to_owned()
+            }
+            None if empty => format!("I found nothing to do in \"{said}\". What shall be true in the end?"),
+            None => "Is this what you mean?".to_owned(),
+        };
+        let all = std::iter::once(decomposition).chain(others);
+        let readings = all.filter(|reading| !reading.subtasks.is_empty()).take(3).collect();
+        Answer::Clarify(Clarification { question, understood, not_understood: problems, readings })
+    }
+
+    /// Whether it is not enough to act on.
+    pub fn asks(&self) -> bool {
+        self.decomposition.subtasks.is_empty() || self.decomposition.confidence < THRESHOLD
+    }
+
+    /// How many changes it asks for.
+    fn changes(&self) -> usize {
+        fn of(entry: &GoalEntry) -> usize {
+            let inside = entry.contains.iter().map(|content| match content {
+                Content::Named(_) => 1,
+                Content::With(inner) => 1 + of(inner),
+            });
+            entry.is.len() + inside.sum::<usize>()
+        }
+        let lasting = self.decomposition.subtasks.iter().filter(|subtask| subtask.lasting);
+        lasting.flat_map(|subtask| &subtask.goal).map(of).sum()
+    }
+
+    /// Whether a gist is rather to be acted on than another reading: that one asks, or leaves out some of it, or
+    /// is not sure of all it says where the gist says more than one thing.
+    pub fn says_more_than(&self, other: &Self) -> bool {
+        let unsure = other.decomposition.confidence < SURE_OF_ALL;
+        other.asks() || self.changes() > other.changes() || unsure && self.changes() > 1
+    }
+}
