@@ -185,7 +185,7 @@ impl<'a> Gist<'a> {
                 self.listing = false;
                 Some(())
             }
-            Chunk::With => {
+            Chunk::With(_) => {
                 self.with(at);
                 Some(())
             }
@@ -289,7 +289,7 @@ impl<'a> Gist<'a> {
     /// A word nobody knows where an order would stand, with something to do it to, is an order nobody knows.
     fn other(&mut self, at: usize, word: &str) -> Option<()> {
         if let Some(verb) = self.homeless.clone()
-            && !matches!(self.chunk(at + 1), Some(Chunk::Place(..)))
+            && matches!(self.chunk(at + 1), None | Some(Chunk::Join(_) | Chunk::But | Chunk::Stop))
             && self.has_particle(&verb, word)
             && !self.topic.is_empty()
         {

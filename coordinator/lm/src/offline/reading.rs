@@ -11,6 +11,9 @@ pub const AS_A_GIST: f64 = 0.6;
 /// A reading this sure is not replaced by a gist that says no more.
 const SURE_OF_ALL: f64 = 0.96;
 
+/// What is said in fewer parts than this is read by its grammar, where that does not ask.
+const MANY_PARTS: usize = 3;
+
 /// A reading and what is wrong with it.
 pub struct Reading {
     pub decomposition: Decomposition,
@@ -88,10 +91,11 @@ impl Reading {
         lasting.flat_map(|subtask| &subtask.goal).map(of).sum()
     }
 
-    /// Whether a gist is rather to be acted on than another reading: that one asks, or leaves out some of it, or
-    /// is not sure of all it says where the gist says more than one thing.
+    /// Whether a gist is rather to be acted on than another reading: that one asks; or it is of many parts, and the
+    /// other leaves out some of it or is not sure of all it says.
     pub fn says_more_than(&self, other: &Self) -> bool {
         let unsure = other.decomposition.confidence < SURE_OF_ALL;
-        other.asks() || self.changes() > other.changes() || unsure && self.changes() > 1
+        let many = self.changes() >= MANY_PARTS;
+        other.asks() || many && (unsure || self.changes() > other.changes())
     }
 }

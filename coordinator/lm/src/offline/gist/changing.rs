@@ -37,6 +37,10 @@ impl Gist<'_> {
             self.change_topic(wanted);
         }
         let denied = std::mem::take(&mut self.denied);
+        if !denied && ["on", "running"].contains(&said) && self.only_runs_to_fill(at) {
+            self.said();
+            return Some(());
+        }
         let plain = [plain.to_owned()];
         self.saying.so(&self.topic, if plain[0].is_empty() { words } else { &plain }, denied);
         self.said();
@@ -80,7 +84,7 @@ impl Gist<'_> {
 
     /// "full of water"
     pub(super) fn liquid_is_said(&self, at: usize) -> bool {
-        matches!(self.chunk(at + 1), Some(Chunk::With | Chunk::Other(_)))
+        matches!(self.chunk(at + 1), Some(Chunk::With(_) | Chunk::Other(_)))
             && matches!(self.chunk(at + 2), Some(Chunk::Liquid(_)))
     }
 
@@ -170,6 +174,10 @@ impl Gist<'_> {
         if self.topic.is_empty() {
             return None;
         }
+        if !doing.words.iter().any(|word| word == "off") && self.only_runs_to_fill(at) {
+            self.said();
+            return Some(());
+        }
         if doing.act == Act::Fill {
             self.liquid = self.filling(at);
             if self.liquid.is_some() {
@@ -181,6 +189,16 @@ impl Gist<'_> {
         self.said();
         self.acted = true;
         Some(())
+    }
+
+    /// "turn on the tap and fill the kettle": what runs is not to go on running.
+    fn only_runs_to_fill(&self, at: usize) -> bool {
+        let tap = self.topic.iter().all(|thing| thing.kinds.iter().any(|kind| kind == "Faucet"));
+        let fills = |chunk: &Chunk| {
+            matches!(chunk, Chunk::Liquid(_)) || matches!(chunk, Chunk::Act(doing) if doing.act == Act::Fill)
+        };
+        let mut sentence = self.chunks[at..].iter().take_while(|chunk| !matches!(chunk, Chunk::Stop));
+        tap && sentence.any(fills)
     }
 
     /// What something is filled with: said behind it, before anything else is spoken of.
@@ -203,7 +221,7 @@ impl Gist<'_> {
                     return Some(liquid.to_owned());
                 }
                 Chunk::Thing(_) => things += 1,
-                Chunk::Again(_) | Chunk::With | Chunk::Other(_) | Chunk::State(..) => {}
+                Chunk::Again(_) | Chunk::With(_) | Chunk::Other(_) | Chunk::State(..) => {}
                 _ => return None,
             }
             if things > 1 {
@@ -231,7 +249,7 @@ impl Gist<'_> {
         let of = match behind.map(|behind| &self.chunks[behind]) {
             Some(Chunk::Other(word)) => ["of", "holding", "containing"].contains(&word.as_str()),
             Some(Chunk::State(words, _)) => ["full", "filled"].contains(&words[0].as_str()),
-            Some(Chunk::With | Chunk::Holds) => true,
+            Some(Chunk::With(_) | Chunk::Holds) => true,
             _ => false,
         };
         // "with water in the cup": where it goes is still to come.

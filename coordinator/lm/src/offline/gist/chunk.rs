@@ -85,8 +85,8 @@ pub enum Chunk {
     Liquid(String),
     /// `not`, `no`, `without`
     Deny,
-    /// `with`
-    With,
+    /// `with`; `together with` (true)
+    With(bool),
     /// A comma, or `and` (true).
     Join(bool),
     /// `but`

@@ -92,7 +92,7 @@ impl Gist<'_> {
             (self.fresh, self.listing) = (false, false);
             return Some(());
         }
-        let together = self.fresh && matches!(self.chunk_before(at), Some(Chunk::With));
+        let together = self.fresh && matches!(self.chunk_before(at), Some(Chunk::With(_)));
         if together || self.listing && (self.fresh || self.front.is_some() || self.same) {
             self.add(thing);
         } else if self.fresh {
@@ -115,7 +115,7 @@ impl Gist<'_> {
 
     /// "on the shelf with the vase", "in place of the newspaper": nothing is said of it.
     fn is_only_named(&self, at: usize) -> bool {
-        let with = matches!(self.chunk_before(at), Some(Chunk::With))
+        let with = matches!(self.chunk_before(at), Some(Chunk::With(_)))
             && matches!(self.chunks.get(at.wrapping_sub(2)), Some(Chunk::Place(..)))
             && self.ends_behind(at);
         with || matches!(self.chunk_before(at), Some(Chunk::Beside))
@@ -153,7 +153,7 @@ impl Gist<'_> {
 
     /// "wipe the mirror with the cloth": by what it is done.
     pub(super) fn is_a_tool(&self, at: usize) -> bool {
-        matches!(self.chunk_before(at), Some(Chunk::With))
+        matches!(self.chunk_before(at), Some(Chunk::With(_)))
             && matches!(self.saying.last, Some(Last::Done(_)))
             && !self.fresh
             && self.ends_behind(at)
@@ -165,17 +165,23 @@ impl Gist<'_> {
 
     /// "on the plate with the lettuce": it goes there too.
     pub(super) fn goes_along(&self, at: usize) -> bool {
-        matches!(self.chunk_before(at), Some(Chunk::With))
+        matches!(self.chunk_before(at), Some(Chunk::With(_)))
             && matches!(self.chunks.get(at.wrapping_sub(2)), Some(Chunk::Place(..)))
             && matches!(self.saying.last, Some(Last::Place(_)))
             && match self.chunk(at + 1) {
                 None | Some(Chunk::Join(_) | Chunk::But | Chunk::Stop) => {
-                    matches!(&self.chunks[at], Chunk::Thing(thing)
-                    if ["a", "an", "some"].contains(&thing.words[0].as_str()) || thing.words.len() > 2)
+                    matches!(self.chunk_before(at), Some(Chunk::With(true)))
+                        || matches!(&self.chunks[at], Chunk::Thing(thing) if self.is_described(thing))
                 }
                 Some(Chunk::State(words, _)) => ["full", "filled"].contains(&words[0].as_str()),
                 _ => false,
             }
+    }
+
+    /// "a slice", "the sliced lettuce": one that is to be so, rather than one that is there.
+    fn is_described(&self, thing: &Thing) -> bool {
+        let asked = |word: &String| self.lexicon.adjective(&[word]).is_some_and(|state| !state.selects);
+        ["a", "an", "some"].contains(&thing.words[0].as_str()) || thing.words.iter().any(asked)
     }
 
     /// "its door": that of what was spoken of.
@@ -222,7 +228,7 @@ impl Gist<'_> {
 
     pub(super) fn again(&mut self, at: usize, again: Again) -> Option<()> {
         // "the knife with them"
-        if matches!(self.chunk_before(at), Some(Chunk::With)) {
+        if matches!(self.chunk_before(at), Some(Chunk::With(_))) {
             if self.fresh
                 && let Some((place, _)) = self.place.clone()
             {

@@ -88,7 +88,7 @@ impl Gist<'_> {
                 filled.or_else(|| self.holder())?
             }
         };
-        Some((at_thing(preposition, &again(&thing)), Some(thing)))
+        Some((at_thing(preposition, &saying::again(&thing)), Some(thing)))
     }
 
     /// "water into the mug"
@@ -179,13 +179,4 @@ pub(super) fn at_thing(preposition: &[String], thing: &Thing) -> Vec<String> {
     let mut words = preposition.to_vec();
     words.extend(saying::name(thing));
     words
-}
-
-/// A thing as it is named again: "a drawer", then "the drawer".
-pub(super) fn again(thing: &Thing) -> Thing {
-    let mut thing = thing.clone();
-    if ["a", "an", "one"].contains(&thing.words[0].as_str()) && thing.words.len() > 1 {
-        thing.words[0] = "the".to_owned();
-    }
-    thing
 }

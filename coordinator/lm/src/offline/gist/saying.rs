@@ -22,6 +22,8 @@ pub struct Saying {
     pub said: Vec<String>,
     /// Of what the last sentence is.
     of: Vec<Thing>,
+    /// What was named: "a drawer" is "the drawer" from then on.
+    known: Vec<Thing>,
     /// What it says.
     pub last: Option<Last>,
 }
@@ -113,15 +115,27 @@ impl Saying {
             if number > 0 {
                 self.say("and");
             }
+            let thing = if self.known.contains(thing) { &again(thing) } else { thing };
             self.said.extend(name(thing));
         }
+        self.known.extend(things.iter().cloned());
     }
+}
+
+/// A thing as it is named again: "a drawer", then "the drawer".
+pub fn again(thing: &Thing) -> Thing {
+    let mut thing = thing.clone();
+    if ["a", "an", "one"].contains(&thing.words[0].as_str()) && thing.words.len() > 1 {
+        thing.words[0] = "the".to_owned();
+    }
+    thing
 }
 
 /// A thing's name, with an article.
 pub fn name(thing: &Thing) -> Vec<String> {
     let first = &thing.words[0];
     let bare = !is_determiner(first) && inflect::number(first).is_none();
-    let article = bare.then(|| "the".to_owned());
+    // "cell phones" are some of them, "the cell phones" all.
+    let article = (bare && !thing.plural).then(|| "the".to_owned());
     article.into_iter().chain(thing.words.iter().cloned()).collect()
 }

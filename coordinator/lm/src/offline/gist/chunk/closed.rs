@@ -188,6 +188,7 @@ impl Chunker<'_> {
             "itself" => Chunk::Which,
             "holding" | "containing" | "carrying" if at > 0 && self.at(at - 1) != "." => Chunk::Holds,
             "see" => Chunk::Moves(None),
+            "one" if self.starts(at + 1, &["of", "them"]) => Chunk::Hard,
             "which" if at > 0 && self.one_of(at, &TELLS).is_none() => Chunk::Which,
             "why" | "how" | "prepare" | "fix" => Chunk::Hard,
             "no" if next == "," => Chunk::Hard,
@@ -209,6 +210,13 @@ impl Chunker<'_> {
             || ["is", "are"].contains(&word) && ["wanted", "needed"].contains(&next);
         if shall {
             return Some((Chunk::Wish, 2));
+        }
+        if ["that", "which"].contains(&word) && next == "has" {
+            return Some((Chunk::Hard, 2));
+        }
+        let stands = ["sits", "stands", "lies", "rests", "sit", "stand", "lie", "hangs"];
+        if ["that", "which"].contains(&word) && stands.contains(&next) {
+            return Some((Chunk::Tells, 2));
         }
         let length = self.one_of(at, &TELLS)?;
         let is = length == 1 && ["is", "are"].contains(&word);

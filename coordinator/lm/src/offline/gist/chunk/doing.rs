@@ -62,6 +62,7 @@ impl Chunker<'_> {
         let object = object || ["me", "us"].contains(&next);
         let told = form == VerbForm::Base
             && state.is_some()
+            && length == 1
             && !(opens && (object || self.thing(at + length).is_some()));
         if is_noun || switched.is_some() || told {
             return None;
@@ -74,7 +75,9 @@ impl Chunker<'_> {
         let same = ["cut", "put", "set", "shut"].contains(&word);
         let form = if same && !object && self.thing(at + length).is_none() { VerbForm::Past } else { form };
         // "switch the lamp on and the television off": by the states.
-        if length == 1 && !particles.is_empty() && verb.set.contains_key("isToggled") {
+        let switched =
+            particles.first().is_some_and(|particle| ["on", "off", "out"].contains(&particle.as_str()));
+        if length == 1 && switched && verb.set.contains_key("isToggled") {
             return Some((Chunk::Moves(None), 1));
         }
         Some(match verb.act {

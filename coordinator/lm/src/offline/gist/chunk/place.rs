@@ -44,7 +44,7 @@ impl Chunker<'_> {
         }
         let (relation, mut length) = preposition(&self.rest(at))?;
         if relation == Relation::With {
-            return Some((Chunk::With, length));
+            return Some((Chunk::With(length > 1), length));
         }
         let preposition = self.words[at..at + length].to_vec();
         if relation == Relation::For {

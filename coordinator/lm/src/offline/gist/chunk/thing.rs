@@ -1,10 +1,13 @@
 //! Noun phrases, as far as their names go.
 
 use super::super::super::inflect;
+use super::super::super::lexicon::Noun;
 use super::super::super::syntax::{is_determiner, is_function_word, preposition};
 use super::super::super::text::POSSESSIVE;
 use super::closed::RESTING;
 use super::{Chunker, Thing};
+
+const LIQUIDS: [&str; 3] = ["water", "coffee", "wine"];
 
 /// A noun phrase is no longer than this before its noun, in words.
 const LONGEST_FRONT: usize = 7;
@@ -20,53 +23,27 @@ impl Chunker<'_> {
             if bare && RESTING.contains(&self.at(at)) {
                 return None;
             }
-            if let Some((noun, is_plural, length)) = self.parser.longest_noun_at(position) {
-                if ["water", "coffee", "wine"].contains(&self.at(position)) && self.is_liquid(position, bare)
-                {
+            let described = self.longest_adjective(position).filter(|&length| length > 1);
+            if let Some((noun, several, length)) = self.parser.longest_noun_at(position)
+                && described.is_none()
+            {
+                if LIQUIDS.contains(&self.at(position)) && self.is_liquid(position, bare) {
                     return None;
                 }
-                let mut end = position + length;
-                let fixed = noun.kinds.iter().any(|kind| self.scene.affords(kind, "receptacle"))
-                    && !noun.kinds.iter().any(|kind| self.scene.affords(kind, "pickupable"));
-                // "the armchair pillow"
-                if fixed
-                    && self.parser.longest_noun_at(end).is_some_and(|(next, _, _)| {
-                        next.kinds.iter().any(|kind| self.scene.affords(kind, "pickupable"))
-                    })
-                {
+                let end = position + length;
+                if let Some(last) = self.whose_it_is(&noun, end) {
+                    position = last;
+                    continue;
+                }
+                words.extend(self.words[position..end].iter().cloned());
+                // "the glass bowl", "the armchair pillow"
+                if self.parser.longest_noun_at(end).is_some() && !self.is_order(end) {
                     position = end;
                     continue;
                 }
-                // "the coffee machine's spout", "the boy's mug"
-                if self.at(end) == POSSESSIVE
-                    && let Some((of, _, length)) = self.parser.longest_noun_at(end + 1)
-                {
-                    let carried =
-                        |kinds: &[String]| kinds.iter().any(|kind| self.scene.affords(kind, "pickupable"));
-                    let here = |kinds: &[String]| kinds.iter().any(|kind| self.scene.has(kind));
-                    let another = carried(&of.kinds) || here(&of.kinds) && carried(&noun.kinds);
-                    if another || !here(&noun.kinds) {
-                        position = end + 1;
-                        continue;
-                    }
-                    words.extend(self.words[position..end].iter().cloned());
-                    let absent = !noun.kinds.iter().any(|kind| self.scene.has(kind));
-                    let thing = Thing { words, kinds: noun.kinds, plural, absent };
-                    return Some((thing, end + 1 + length - at));
-                }
-                if self.at(end) == "time" {
-                    return None;
-                }
-                words.extend(self.words[position..end].iter().cloned());
-                let sliceable = noun.kinds.iter().any(|kind| self.scene.affords(kind, "sliceable"));
-                if sliceable && self.is_slices(self.at(end)) {
-                    words.push(self.at(end).to_owned());
-                    plural |= self.at(end).ends_with('s');
-                    end += 1;
-                }
-                let absent = !noun.kinds.iter().any(|kind| self.scene.has(kind));
-                let plural = plural || is_plural;
-                return Some((Thing { words, kinds: noun.kinds, plural, absent }, end - at));
+                return self
+                    .named(words, &noun, plural || several, end)
+                    .map(|(thing, end)| (thing, end - at));
             }
             let word = self.at(position);
             if !["bit", "part", "portion", "section"].contains(&word)
@@ -86,6 +63,50 @@ impl Chunker<'_> {
             position += length.max(1);
         }
         None
+    }
+
+    /// "the boy's mug": where the thing itself begins, behind whose it is.
+    fn whose_it_is(&self, of: &Noun, end: usize) -> Option<usize> {
+        let (noun, _, _) = self.parser.longest_noun_at(end + 1).filter(|_| self.at(end) == POSSESSIVE)?;
+        let carried = |noun: &Noun| noun.kinds.iter().any(|kind| self.scene.affords(kind, "pickupable"));
+        let here = |noun: &Noun| noun.kinds.iter().any(|kind| self.scene.has(kind));
+        // "the coffee machine's spout" is at the machine.
+        let itself = carried(&noun) || here(&noun) && carried(of) || !here(of);
+        itself.then_some(end + 1)
+    }
+
+    /// A thing by its name, up to and with what is behind the noun: "apple slices", "the machine's spout".
+    fn named(
+        &self,
+        mut words: Vec<String>,
+        noun: &Noun,
+        mut plural: bool,
+        mut end: usize,
+    ) -> Option<(Thing, usize)> {
+        if self.at(end) == "time" {
+            return None;
+        }
+        let sliceable = noun.kinds.iter().any(|kind| self.scene.affords(kind, "sliceable"));
+        if sliceable && self.is_slices(self.at(end)) {
+            words.push(self.at(end).to_owned());
+            plural |= self.at(end).ends_with('s');
+            end += 1;
+        }
+        if let Some((_, _, length)) = self.parser.longest_noun_at(end + 1)
+            && self.at(end) == POSSESSIVE
+        {
+            end += 1 + length;
+        }
+        let absent = !noun.kinds.iter().any(|kind| self.scene.has(kind));
+        Some((Thing { words, kinds: noun.kinds.clone(), plural, absent }, end))
+    }
+
+    /// The longest adjective at a place, in words.
+    fn longest_adjective(&self, at: usize) -> Option<usize> {
+        let rest = self.rest(at);
+        (1..=3.min(rest.len()))
+            .rev()
+            .find(|&n| self.lexicon.adjective(&rest[..n]).is_some() && preposition(&rest[..1]).is_none())
     }
 
     fn is_slices(&self, word: &str) -> bool {
@@ -127,18 +148,15 @@ impl Chunker<'_> {
         if ["slices", "measures", "parts"].into_iter().any(listed) && self.at(position + 1) == "of" {
             return Some(2);
         }
-        let adjective = (1..=3.min(rest.len()))
-            .rev()
-            .find(|&n| self.lexicon.adjective(&rest[..n]).is_some() && preposition(&rest[..1]).is_none());
-        if adjective.is_some() {
-            return adjective;
+        if let Some(length) = self.longest_adjective(position) {
+            return Some(length);
         }
         if let Some(length) = self.lexicon.longest_small("modifiers", &rest) {
             return Some(length);
         }
         // "the ugly vase"
         let strange = position > start
-            && is_determiner(self.at(position - 1))
+            && (is_determiner(self.at(position - 1)) || inflect::number(self.at(position - 1)).is_some())
             && !is_function_word(word)
             && !",.".contains(word)
             && word != POSSESSIVE
