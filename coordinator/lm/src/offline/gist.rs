@@ -228,7 +228,7 @@ impl<'a> Gist<'a> {
                 Some(())
             }
             Chunk::Wish => {
-                (self.tells, self.listing, self.pending) = (false, false, None);
+                (self.tells, self.listing, self.acted, self.pending) = (false, false, false, None);
                 Some(())
             }
             Chunk::Which => {

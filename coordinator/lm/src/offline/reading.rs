@@ -2,7 +2,7 @@
 
 use lamma_domains::goal::{Content, GoalEntry};
 
-use super::{THRESHOLD, text};
+use super::{SURE, THRESHOLD, text};
 use crate::{Answer, Clarification, Decomposition};
 
 /// How sure a reading is at most that was put together from parts.
@@ -96,6 +96,7 @@ impl Reading {
     pub fn says_more_than(&self, other: &Self) -> bool {
         let unsure = other.decomposition.confidence < SURE_OF_ALL;
         let many = self.changes() >= MANY_PARTS;
-        other.asks() || many && (unsure || self.changes() > other.changes())
+        let guessed = other.decomposition.confidence < SURE && self.changes() > 1;
+        other.asks() || guessed || many && (unsure || self.changes() > other.changes())
     }
 }

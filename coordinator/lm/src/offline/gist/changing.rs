@@ -4,6 +4,7 @@ use super::Gist;
 use super::chunk::{Chunk, Doing, Thing, Where};
 use crate::offline::inflect::VerbForm;
 use crate::offline::lexicon::{Act, Settings};
+use crate::offline::scene::is_in_state;
 use crate::offline::syntax::Relation;
 
 impl Gist<'_> {
@@ -12,12 +13,9 @@ impl Gist<'_> {
         self.pending = None;
         let untouched = |property: &str| set.get(property) == Some(&crate::offline::no());
         let full = set.contains_key("isFilledWithLiquid") && self.liquid_is_said(at);
-        if std::mem::take(&mut self.tells)
-            || self.frozen
-            || untouched("isSliced")
-            || untouched("isCooked")
-            || full
-        {
+        // What is told and is not so is wished.
+        let told = std::mem::take(&mut self.tells) && !self.is_untrue(set);
+        if told || self.frozen || untouched("isSliced") || untouched("isCooked") || full {
             return Some(());
         }
         let said = words[0].as_str();
@@ -26,7 +24,10 @@ impl Gist<'_> {
             return self.says_only_how(at, said);
         }
         let breaks = words == ["sliced"] && !wanted.iter().any(|thing| self.affords(thing, "sliceable"));
+        let opens = wanted.iter().any(|thing| self.affords(thing, "openable"));
         let plain = match said {
+            "up" if !opens => "on",
+            "down" if !opens => "off",
             "up" | "raised" => "open",
             "down" | "lowered" | "drawn" => "closed",
             "out" => "off",
@@ -47,6 +48,15 @@ impl Gist<'_> {
         Some(())
     }
 
+    /// Whether nothing spoken of is so now.
+    fn is_untrue(&self, set: &Settings) -> bool {
+        let switch = set.contains_key("isToggled") || set.contains_key("isOpen");
+        let mut objects =
+            self.topic.iter().flat_map(|thing| &thing.kinds).flat_map(|kind| self.scene.of_kind(kind));
+        let known = objects.clone().next().is_some();
+        switch && known && !objects.any(|object| is_in_state(object, set))
+    }
+
     /// What of the topic can be so; else what it was put into: "put it in the microwave and turn it on".
     fn can_be_so(&self, set: &Settings, upright: bool) -> Vec<Thing> {
         let wants = match set.keys().next().map(String::as_str) {
@@ -57,6 +67,12 @@ impl Gist<'_> {
         let can =
             |thing: &&Thing| self.affords(thing, wants) && !(upright && self.affords(thing, "pickupable"));
         let wanted: Vec<Thing> = self.topic.iter().filter(can).cloned().collect();
+        // "the lights down"
+        let switched =
+            |thing: &Thing| self.affords(thing, "toggleable") && !self.affords(thing, "pickupable");
+        if upright && wanted.is_empty() && self.topic.iter().all(switched) {
+            return self.topic.clone();
+        }
         if !wanted.is_empty() || wants != "toggleable" || self.fresh {
             return wanted;
         }
@@ -91,10 +107,10 @@ impl Gist<'_> {
     /// Something is done: to what is named next, or to the topic.
     pub(super) fn doing(&mut self, at: usize, doing: &Doing) -> Option<()> {
         (self.pending, self.same) = (None, false);
-        if self.homeless.is_some() {
+        let past = doing.form == VerbForm::Past;
+        if self.homeless.is_some() && !past {
             return None;
         }
-        let past = doing.form == VerbForm::Past;
         if past && self.comes_before_its_thing(at) {
             self.leading = Some(doing.clone());
             return Some(());
@@ -119,9 +135,7 @@ impl Gist<'_> {
             // "boil some water in the kettle"
             Some(Chunk::Liquid(_)) if doing.act != Act::Fill => Some(()),
             _ if self.frozen => Some(()),
-            _ if past || !std::mem::take(&mut self.tells) && self.is_wished(at, doing) => {
-                self.do_it(at, doing)
-            }
+            _ if past || !std::mem::take(&mut self.tells) && self.is_wished(at) => self.do_it(at, doing),
             _ => self.is_no_order(at, doing).then_some(()),
         }
     }
@@ -147,17 +161,14 @@ impl Gist<'_> {
     }
 
     /// "needs a wash", "wants scrubbing", "let it run"; not "the tap runs", nor "the pot is boiling".
-    fn is_wished(&self, at: usize, doing: &Doing) -> bool {
+    fn is_wished(&self, at: usize) -> bool {
         let said = self.chunks[..at].iter().rev();
         let before = said.clone().find(|chunk| !matches!(chunk, Chunk::Other(_)));
         let mut sentence = said.take_while(|chunk| !matches!(chunk, Chunk::Stop));
-        let listed = matches!(self.chunk_before(at), Some(Chunk::Join(_)))
+        let listed = matches!(self.chunk_before(at), Some(Chunk::Join(_) | Chunk::But))
             && sentence.any(|chunk| matches!(chunk, Chunk::Wish));
-        let opens = matches!(self.chunk_before(at), None | Some(Chunk::Stop | Chunk::Join(_)));
-        matches!(before, Some(Chunk::Wish))
-            || listed
-            || self.moved && doing.form == VerbForm::Base
-            || opens && self.fresh
+        let opens = matches!(self.chunk_before(at), None | Some(Chunk::Stop | Chunk::But | Chunk::Join(_)));
+        matches!(before, Some(Chunk::Wish)) || listed || self.moved || opens && self.fresh
     }
 
     /// "a nice soak", "closing up now: …"

@@ -22,6 +22,7 @@ impl Gist<'_> {
         if self.goes_along(at) {
             self.of_it_alone(thing, Self::as_before)?;
             self.topic.push(thing.clone());
+            (self.same, self.listing) = (true, true);
             return Some(());
         }
         if let Some(doing) = self.pending.take() {
@@ -91,6 +92,9 @@ impl Gist<'_> {
             self.change_topic(vec![thing.clone()]);
             (self.fresh, self.listing) = (false, false);
             return Some(());
+        }
+        if self.same && self.chunk_before(at) == Some(&Chunk::Join(false)) {
+            (self.same, self.listing) = (false, false);
         }
         let together = self.fresh && matches!(self.chunk_before(at), Some(Chunk::With(_)));
         if together || self.listing && (self.fresh || self.front.is_some() || self.same) {
@@ -209,7 +213,12 @@ impl Gist<'_> {
     /// Whether a thing in a list of what something is done to begins something else: "boil the egg, wine in the fridge".
     pub(super) fn opens_another(&self, at: usize) -> bool {
         let comma = self.chunk_before(at) == Some(&Chunk::Join(false));
-        let listed = |chunk: &&Chunk| matches!(chunk, Chunk::Thing(_) | Chunk::Join(true));
+        let then = self.chunk_before(at) == Some(&Chunk::But);
+        let listed = |chunk: &&Chunk| match chunk {
+            Chunk::Thing(_) | Chunk::Join(true) => true,
+            Chunk::Join(false) => then,
+            _ => false,
+        };
         let behind = self.chunks[at + 1..].iter().find(|chunk| !listed(chunk));
         match behind {
             Some(Chunk::Wish | Chunk::Stays | Chunk::Tells) => true,

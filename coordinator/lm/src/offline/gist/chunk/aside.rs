@@ -1,7 +1,7 @@
 //! What is said beside what is wanted: when, why, and who.
 
 use super::super::super::lexicon::Act;
-use super::super::super::syntax::is_function_word;
+use super::super::super::syntax::{is_determiner, is_function_word};
 use super::super::super::text::POSSESSIVE;
 use super::Chunker;
 
@@ -90,10 +90,12 @@ impl Chunker<'_> {
             ["is", "has", "was", "are", "have", POSSESSIVE].contains(&word)
                 || word.len() > 3 && word.ends_with('s') && self.thing(at).is_none() && !word.ends_with("ss")
         });
+        let named = (at..end)
+            .any(|at| is_determiner(self.at(at)) && self.thing(at).is_some_and(|(thing, _)| !thing.absent));
         let goes = (at..end).any(|at| {
             matches!(self.place(at, None), Some((super::Chunk::Place(_, _, super::Where::At(thing)), _)) if !thing.absent)
         });
-        (opens && !known && told && !goes && !self.orders_in(at, end)).then_some(end - at)
+        (opens && !known && told && !goes && !named && !self.orders_in(at, end)).then_some(end - at)
     }
 
     fn is_said_of_nothing(&self, word: &str) -> bool {

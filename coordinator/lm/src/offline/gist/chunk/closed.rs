@@ -31,7 +31,7 @@ const HARD: [&str; 16] = [
 
 const DENIES: [&str; 8] = ["not", "no", "never", "nor", "neither", "without", "dont", "none"];
 
-const JOINS: [&str; 8] = ["and", "plus", "while", "whereas", "whilst", "then", "so", "also"];
+const JOINS: [&str; 7] = ["and", "plus", "while", "whereas", "whilst", "so", "also"];
 
 const TELLS: [&[&str]; 21] = [
     &["that", "is"],
@@ -176,9 +176,12 @@ impl Chunker<'_> {
             "," => Chunk::Join(false),
             "but" => Chunk::But,
             "shine" | "glow" | "glowing" | "shining" | "playing" | "ablaze" | "blazing" => Self::on(),
+            "burn" if !self.object_follows(at + 1) => Self::on(),
             POSSESSIVE if self.describes(at + 1) => Chunk::Tells,
-            "found" | "noticed" | "saw" if opens => Chunk::Tells,
+            "found" | "noticed" | "saw" if at == 0 || self.at(at - 1) == "." => Chunk::Tells,
             "is" | "are" if next == "for" => Chunk::Wish,
+            "water" | "coffee" | "wine" if next == "filled" => return None,
+            "then" => Chunk::But,
             "water" | "coffee" | "wine" if self.is_liquid(at, opens) => Chunk::Liquid(word.to_owned()),
             "stays" | "stay" | "remain" | "remains" => Chunk::Stays,
             "stop" if ["where", "put"].contains(&next) => Chunk::Stays,
@@ -219,6 +222,10 @@ impl Chunker<'_> {
             return Some((Chunk::Tells, 2));
         }
         let length = self.one_of(at, &TELLS)?;
+        if ["is", "are", "was", "were"].contains(&word) && length == 1 && self.thing(at + 1).is_some() {
+            // "supper is the egg"
+            return Some((Chunk::Other(word.to_owned()), 1));
+        }
         let is = length == 1 && ["is", "are"].contains(&word);
         let wished = is && (self.is_past(at + 1) || self.is_made_sure(at));
         Some((if wished { Chunk::Wish } else { Chunk::Tells }, length))

@@ -90,7 +90,10 @@ impl Chunker<'_> {
             Where::At(thing)
         } else {
             // "on show", "out of earshot"; but "the lamp on, please"
-            let state = length == 1 && BEHIND_A_STATE.contains(&self.at(target));
+            let switched = ["on", "off"].contains(&at_word)
+                && matches!(before, Some(Chunk::Thing(thing))
+                    if thing.kinds.iter().any(|kind| self.scene.affords(kind, "toggleable")));
+            let state = length == 1 && (switched || BEHIND_A_STATE.contains(&self.at(target)));
             let purpose = at_word == "to";
             if state && at_word == "inside" {
                 return Some((Chunk::Place(Relation::In, vec!["in".to_owned()], Where::AtIt), 1));

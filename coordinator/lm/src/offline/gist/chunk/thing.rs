@@ -37,7 +37,8 @@ impl Chunker<'_> {
                 }
                 words.extend(self.words[position..end].iter().cloned());
                 // "the glass bowl", "the armchair pillow"
-                if self.parser.longest_noun_at(end).is_some() && !self.is_order(end) {
+                let can = self.at(end) == "can";
+                if self.parser.longest_noun_at(end).is_some() && !self.is_order(end) && !can {
                     position = end;
                     continue;
                 }
