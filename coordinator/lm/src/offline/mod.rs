@@ -15,10 +15,12 @@ mod lexicon;
 mod literal;
 mod mention;
 mod phrase;
+mod remark;
 mod rewrite;
 mod scene;
 mod sense;
 mod situation;
+mod slang;
 mod snapshot;
 mod spelling;
 mod syntax;
@@ -177,6 +179,17 @@ impl Reading {
         }
     }
 
+    /// Whether it is acted upon without a question.
+    fn is_understood(&self) -> bool {
+        !self.decomposition.subtasks.is_empty() && self.decomposition.confidence >= THRESHOLD
+    }
+
+    /// Says what was taken for remarks.
+    fn remark(&mut self, remarks: &[String]) {
+        let noted = remarks.iter().map(|remark| format!("took \"{remark}\" as a remark"));
+        self.decomposition.assumptions.splice(0..0, noted);
+    }
+
     /// The answer to what was `said`.
     fn answer(self, said: &str, assume: bool) -> Answer {
         let Self { decomposition, problems, others, only_goes, .. } = self;
@@ -212,6 +225,10 @@ struct Plain {
     words: Vec<String>,
     /// What was taken for a slip of the pen, in words.
     repairs: Vec<String>,
+    /// The words with the remarks, if there are any.
+    whole: Option<Vec<String>>,
+    /// What was taken for remarks.
+    remarks: Vec<String>,
     /// Mended words as they were typed, and as they are read.
     typed: Vec<(String, String)>,
     /// Where the instruction was cut off for its length.
@@ -224,7 +241,7 @@ fn plain(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Plain {
         .map(|(at, _)| at)
         .find(|&at| at >= text::LONGEST_INSTRUCTION)
         .unwrap_or(instruction.len());
-    let tokens = text::without_list_numbers(text::tokens(&instruction[..cut]));
+    let tokens = slang::spelled_out(text::without_list_numbers(text::tokens(&instruction[..cut])));
     let mut tokens = text::split_articles(tokens, lexicon, scene);
     let repairs = text::repair_spelling(&mut tokens, lexicon, scene);
     let typed: Vec<(String, String)> = tokens
@@ -232,41 +249,24 @@ fn plain(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Plain {
         .filter(|token| repairs.contains(&text::repair_note(token)))
         .map(|token| (token.typed.clone(), token.text.clone()))
         .collect();
-    let tokens = rewrite::rewritten(tokens, lexicon);
-    let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
-    let words = text::without_asides(words, lexicon);
-    Plain { words, repairs, typed, cut }
+    let (left, remarks) = remark::set_apart(&tokens, lexicon, scene);
+    let plainer = |tokens| {
+        let tokens = rewrite::rewritten(tokens, lexicon);
+        text::without_asides(tokens.into_iter().map(|token| token.text).collect(), lexicon)
+    };
+    let whole = (!remarks.is_empty()).then(|| plainer(tokens));
+    Plain { words: plainer(left), whole, repairs, remarks, typed, cut }
 }
 
-/// The best reading of an instruction: word by word, or as a situation where that explains more.
+/// The best reading of an instruction: without its remarks, or with them where nothing is understood without.
 fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
-    let Plain { words, repairs, typed, cut } = plain(instruction, lexicon, scene);
-    if text::says_nothing(&words, lexicon, scene) {
-        return Reading::nothing(instruction);
-    }
-    let mut reading = word_by_word(&words, lexicon, scene);
-    let strong = situation::ranked(lexicon, &situation::words_of(&words), true);
-    let explained = strong.first().map_or(0, |(_, explained)| *explained);
-    let absent = reading.problems.iter().any(|problem| problem.starts_with("there is no "));
-    let one_sentence = !words[..words.len().saturating_sub(1)].contains(&".".to_owned());
-    let sure = reading.decomposition.confidence > SURE;
-    if explained >= SURE_WHOLE && one_sentence && !sure && !reading.concrete {
-        if let Some(whole) = as_situation(&words, instruction, lexicon, scene) {
-            reading = whole;
-        }
-    } else if (!absent || explained >= 2)
-        && !reading.concrete
-        && (reading.clauses < MANY_CLAUSES || reading.decomposition.subtasks.is_empty())
-        && (reading.decomposition.subtasks.is_empty() || reading.decomposition.confidence < THRESHOLD)
-    {
-        let whole = as_situation(&words, instruction, lexicon, scene);
-        match whole {
-            Some(mut whole) if whole.decomposition.confidence > reading.decomposition.confidence => {
-                whole.others.push(reading.decomposition);
-                reading = whole;
-            }
-            Some(whole) => reading.others.push(whole.decomposition),
-            None => {}
+    let Plain { words, whole, repairs, remarks, typed, cut } = plain(instruction, lexicon, scene);
+    let mut reading = read_words(&words, instruction, lexicon, scene);
+    reading.remark(&remarks);
+    if let Some(whole) = whole.filter(|_| !reading.is_understood()) {
+        let with_remarks = read_words(&whole, instruction, lexicon, scene);
+        if with_remarks.is_understood() {
+            reading = with_remarks;
         }
     }
     if cut < instruction.len() {
@@ -279,6 +279,39 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         }
     }
     reading.decomposition.assumptions.splice(0..0, repairs);
+    reading
+}
+
+/// The best reading of some words: word by word, or as a situation where that explains more.
+fn read_words(words: &[String], instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
+    if text::says_nothing(words, lexicon, scene) {
+        return Reading::nothing(instruction);
+    }
+    let mut reading = word_by_word(words, lexicon, scene);
+    let strong = situation::ranked(lexicon, &situation::words_of(words), true);
+    let explained = strong.first().map_or(0, |(_, explained)| *explained);
+    let absent = reading.problems.iter().any(|problem| problem.starts_with("there is no "));
+    let one_sentence = !words[..words.len().saturating_sub(1)].contains(&".".to_owned());
+    let sure = reading.decomposition.confidence > SURE;
+    if explained >= SURE_WHOLE && one_sentence && !sure && !reading.concrete {
+        if let Some(whole) = as_situation(words, instruction, lexicon, scene) {
+            reading = whole;
+        }
+    } else if (!absent || explained >= 2)
+        && !reading.concrete
+        && (reading.clauses < MANY_CLAUSES || reading.decomposition.subtasks.is_empty())
+        && (reading.decomposition.subtasks.is_empty() || reading.decomposition.confidence < THRESHOLD)
+    {
+        let whole = as_situation(words, instruction, lexicon, scene);
+        match whole {
+            Some(mut whole) if whole.decomposition.confidence > reading.decomposition.confidence => {
+                whole.others.push(reading.decomposition);
+                reading = whole;
+            }
+            Some(whole) => reading.others.push(whole.decomposition),
+            None => {}
+        }
+    }
     reading
 }
 

@@ -1,0 +1,229 @@
+//! Remarks: what is told beside orders and orders nothing: "Grandma is coming.", "…, nobody is watching".
+//!
+//! An instruction is split into parts, at marks and before what joins another part to one. A part that only tells
+//! something is left out where another part orders something, and said to be taken as a remark.
+
+use super::clause::is_going;
+use super::lexicon::{LONGEST, Lexicon};
+use super::scene::Scene;
+use super::syntax::{is_determiner, preposition};
+use super::text::Token;
+use super::{inflect, situation};
+use telling::Said;
+
+mod telling;
+
+/// Who says in so many parts what to do has said all of it: what is told beside them asks for nothing more.
+const SAID_ALL: usize = 3;
+
+/// What joins a reason or a time to what is ordered.
+const SUBORDINATORS: [&str; 12] = [
+    "because",
+    "since",
+    "as",
+    "when",
+    "once",
+    "before",
+    "after",
+    "while",
+    "until",
+    "till",
+    "whenever",
+    "otherwise",
+];
+
+/// Tokens from one place up to another.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    from: usize,
+    to: usize,
+}
+
+/// The tokens of an instruction, and what they may be about.
+struct Remarks<'a> {
+    tokens: Vec<Token>,
+    lexicon: &'a Lexicon,
+    scene: &'a Scene<'a>,
+}
+
+/// An instruction without its remarks, and the remarks.
+pub fn set_apart(tokens: &[Token], lexicon: &Lexicon, scene: &Scene<'_>) -> (Vec<Token>, Vec<String>) {
+    let text = Remarks { tokens: tokens.to_vec(), lexicon, scene };
+    let parts = text.parts();
+    let telling: Vec<bool> = parts.iter().map(|part| text.is_remark(*part)).collect();
+    let orders: Vec<bool> =
+        parts.iter().zip(&telling).map(|(part, tells)| !tells && text.orders(*part)).collect();
+    let said = orders.iter().filter(|orders| **orders).count();
+    if said == 0 {
+        return (text.tokens, Vec::new());
+    }
+    let left_out: Vec<bool> = (0..parts.len())
+        .map(|at| telling[at] && (said >= SAID_ALL || text.asks_for_nothing(at, &parts, &orders)))
+        .collect();
+    text.without(&parts, &left_out)
+}
+
+impl Remarks<'_> {
+    fn at(&self, index: usize) -> &str {
+        self.tokens.get(index).map_or("", |token| token.text.as_str())
+    }
+
+    fn typed(&self, index: usize) -> &str {
+        self.tokens.get(index).map_or("", |token| token.typed.as_str())
+    }
+
+    fn is_mark(&self, index: usize) -> bool {
+        index >= self.tokens.len() || [",", "."].contains(&self.at(index))
+    }
+
+    /// Splits at marks and before what joins.
+    fn parts(&self) -> Vec<Part> {
+        let mut parts = Vec::new();
+        let mut from = 0;
+        for index in 0..=self.tokens.len() {
+            let mark = self.is_mark(index);
+            if !mark && !(index > from && self.joins(index)) {
+                continue;
+            }
+            if index > from {
+                parts.push(Part { from, to: index });
+            }
+            from = index + usize::from(mark);
+        }
+        parts
+    }
+
+    /// Whether another part begins here without a mark before it: "… so wash it", "… because I am late".
+    fn joins(&self, index: usize) -> bool {
+        let next = self.at(index + 1);
+        match self.at(index) {
+            "because" => true,
+            "so" => {
+                ["that", "please", "can", "could", "will", "would"].contains(&next)
+                    || self.somebody(index + 1)
+                    || self.is_order(index + 1)
+                    || is_determiner(next)
+                    || self.lexicon.noun(&[next]).is_some() && self.lexicon.adjective(&[next]).is_none()
+            }
+            "and" | "but" | "then" => {
+                let then = usize::from(["then", "please", "just", "also"].contains(&next));
+                self.is_order(index + 1 + then) || ["i", "im", "ill", "we", "nobody"].contains(&next)
+            }
+            word => SUBORDINATORS.contains(&word) && self.at(index - 1) != "soon" && self.somebody(index + 1),
+        }
+    }
+
+    /// Whether somebody is spoken of here who is no robot.
+    fn somebody(&self, index: usize) -> bool {
+        let words: Vec<String> = telling::spelled_out(&self.tokens[index.min(self.tokens.len())..]);
+        telling::person(&words, &self.named_persons(index), self.lexicon).is_some()
+    }
+
+    /// Whether an order begins here.
+    fn is_order(&self, index: usize) -> bool {
+        let word = self.at(index);
+        let base = !word.ends_with('s') || word.ends_with("ss");
+        base && self.lexicon.noun(&[word]).is_none()
+            && self.lexicon.verbs(word).iter().any(|(form, _, _)| *form == inflect::VerbForm::Base)
+    }
+
+    /// The thing of the scene that is named here, and in how many words.
+    fn thing(&self, index: usize) -> Option<usize> {
+        let longest = LONGEST.min(self.tokens.len().saturating_sub(index));
+        (1..=longest).rev().find(|&length| {
+            let words: Vec<&str> = (index..index + length).map(|at| self.at(at)).collect();
+            let noun = self.lexicon.noun(&words);
+            noun.is_some_and(|(noun, _)| noun.kinds.iter().any(|kind| self.scene.has(kind)))
+                || length == 1 && self.scene.named(words[0]).is_some()
+        })
+    }
+
+    fn names_a_thing(&self, part: Part) -> bool {
+        (part.from..part.to).any(|at| self.thing(at).is_some())
+    }
+
+    /// Whether a part says what to do, as far as its words tell: it names a thing of the scene.
+    fn orders(&self, part: Part) -> bool {
+        self.names_a_thing(part)
+    }
+
+    /// Which of the words from a place on are names of persons: written large, and no word that is known.
+    fn named_persons(&self, from: usize) -> Vec<bool> {
+        let named = |at: usize| {
+            let typed = self.typed(at);
+            let capital = typed.chars().next().is_some_and(char::is_uppercase);
+            let lower = typed.chars().skip(1).all(|c| c.is_lowercase() || c == '\'');
+            capital
+                && lower
+                && typed.len() > 2
+                && !super::text::is_known(self.at(at), self.lexicon, self.scene)
+        };
+        (from..self.tokens.len()).map(named).collect()
+    }
+
+    /// Whether a part only tells something, or only calls or greets somebody.
+    fn is_remark(&self, part: Part) -> bool {
+        let words = telling::spelled_out(&self.tokens[part.from..part.to]);
+        let said = Said {
+            words: &words,
+            named: self.named_persons(part.from),
+            thing: self.names_a_thing(part),
+            colon: self.typed(part.to) == ":",
+            sentence: part.from == 0 || self.at(part.from - 1) == ".",
+            ends: self.at(part.to) != ",",
+        };
+        said.is_remark(self.lexicon)
+    }
+
+    /// Whether what a part tells asks for nothing: no situation answers it, it says why or when, or the order that
+    /// it leads to is said behind it.
+    fn asks_for_nothing(&self, at: usize, parts: &[Part], orders: &[bool]) -> bool {
+        let part = parts[at];
+        let words: Vec<String> = (part.from..part.to).map(|at| self.at(at).to_owned()).collect();
+        let reason = SUBORDINATORS.contains(&words[0].as_str()) || words[0] == "so";
+        let leads = parts
+            .get(at + 1)
+            .is_some_and(|next| orders[at + 1] && (self.at(next.from) == "so" || self.typed(part.to) == ":"));
+        reason || leads || situation::ranked(self.lexicon, &situation::words_of(&words), false).is_empty()
+    }
+
+    /// What is left, with the stronger of the marks around what was left out, and what was left out, in words.
+    fn without(self, parts: &[Part], left_out: &[bool]) -> (Vec<Token>, Vec<String>) {
+        let mut kept: Vec<Token> = Vec::with_capacity(self.tokens.len());
+        let mut remarks = Vec::new();
+        let mut bare = false;
+        for (part, left_out) in parts.iter().zip(left_out) {
+            let mark = self.tokens.get(part.to).filter(|_| self.is_mark(part.to));
+            if *left_out {
+                let words: Vec<&str> = (part.from..part.to).map(|at| self.at(at)).collect();
+                remarks.push(words.join(" "));
+                match (kept.last_mut(), mark) {
+                    // "the tomato, since it is rotten, in the bin"
+                    (Some(last), Some(mark)) if last.text == "," && mark.text == "," => {
+                        if preposition(&[self.at(part.to + 1)]).is_some() {
+                            kept.pop();
+                        }
+                    }
+                    (Some(last), Some(mark)) if last.text == "," => last.clone_from(mark),
+                    (Some(last), Some(mark)) if ![",", "."].contains(&last.text.as_str()) => {
+                        kept.push(mark.clone())
+                    }
+                    _ => {}
+                }
+                bare = kept.last().is_none_or(|last| last.text == ".");
+                continue;
+            }
+            // "Grandma is coming, so wash the cup": wash it.
+            let from = part.from + usize::from(bare && ["so", "and", "but"].contains(&self.at(part.from)));
+            kept.extend_from_slice(&self.tokens[from..part.to]);
+            kept.extend(mark.cloned());
+            bare = false;
+        }
+        (kept, remarks)
+    }
+}
+
+/// Whether something is said to go or to be somewhere.
+fn is_placed(word: &str) -> bool {
+    is_going(word) || preposition(&[word]).is_some()
+}

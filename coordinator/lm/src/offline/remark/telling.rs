@@ -1,0 +1,339 @@
+//! Whether words tell something or order it.
+
+use super::super::inflect::VerbForm;
+use super::super::lexicon::{LONGEST, Lexicon};
+use super::super::syntax::is_determiner;
+use super::super::text::{POSSESSIVE, Token};
+
+/// What is and has been, and what will be.
+const AUXILIARIES: [&str; 24] = [
+    "is", "are", "am", "was", "were", "has", "have", "had", "been", "will", "wont", "can", "cant", "cannot",
+    "could", "couldnt", "does", "doesnt", "did", "didnt", "isnt", "arent", "might", "may",
+];
+
+/// What asks for something.
+const WISHES: [&str; 22] = [
+    "want", "wants", "need", "needs", "prefer", "prefers", "rather", "require", "requires", "fancy",
+    "should", "must", "shall", "ought", "shouldnt", "mustnt", "like", "love", "expect", "insist", "deserves",
+    "wish",
+];
+
+/// What says no.
+const DENIALS: [&str; 6] = ["dont", "doesnt", "not", "never", "didnt", "wont"];
+
+/// What may stand before what is told.
+const JOINS: [&str; 20] = [
+    "and",
+    "but",
+    "so",
+    "because",
+    "since",
+    "as",
+    "otherwise",
+    "that",
+    "or",
+    "then",
+    "when",
+    "once",
+    "before",
+    "after",
+    "while",
+    "until",
+    "till",
+    "whenever",
+    "though",
+    "whatever",
+];
+
+/// Somebody, by no name.
+const PERSONS: [&str; 14] = [
+    "i",
+    "we",
+    "he",
+    "she",
+    "nobody",
+    "noone",
+    "somebody",
+    "someone",
+    "everybody",
+    "everyone",
+    "people",
+    "anybody",
+    "anyone",
+    "who",
+];
+
+/// The words of a part and what is known of them.
+pub(super) struct Said<'w> {
+    pub(super) words: &'w [String],
+    pub(super) named: Vec<bool>,
+    /// A thing of the scene is named.
+    pub(super) thing: bool,
+    /// A colon stands behind it.
+    pub(super) colon: bool,
+    /// It begins a sentence.
+    pub(super) sentence: bool,
+    /// It ends with more than a comma.
+    pub(super) ends: bool,
+}
+
+/// Contractions in full: "I'm" is "i am", "it's" is "it is".
+pub(super) fn spelled_out(tokens: &[Token]) -> Vec<String> {
+    let mut words = Vec::with_capacity(tokens.len() + 2);
+    for (index, token) in tokens.iter().enumerate() {
+        if [",", "."].contains(&token.text.as_str()) {
+            break;
+        }
+        let next = tokens.get(index + 1).map_or("", |next| next.text.as_str());
+        let typed = token.typed.to_lowercase().replace('\u{2019}', "'");
+        let opens = index == 0 || JOINS.contains(&tokens[index - 1].text.as_str());
+        let said: &[&str] = match token.text.as_str() {
+            "im" => &["i", "am"],
+            "ive" => &["i", "have"],
+            "ill" if typed == "i'll" || opens => &["i", "will"],
+            "id" => &["i", "would"],
+            "were" if typed == "we're" => &["we", "are"],
+            "well" if typed == "we'll" => &["we", "will"],
+            "weve" => &["we", "have"],
+            "wed" if typed == "we'd" => &["we", "would"],
+            "theyre" => &["they", "are"],
+            "theyve" => &["they", "have"],
+            "theyll" => &["they", "will"],
+            "youre" => &["you", "are"],
+            "youve" => &["you", "have"],
+            "youll" => &["you", "will"],
+            "hed" => &["he", "would"],
+            "shed" if typed == "she'd" => &["she", "would"],
+            "hell" if typed == "he'll" => &["he", "will"],
+            "shell" if typed == "she'll" => &["she", "will"],
+            "s" | POSSESSIVE if index > 0 && !next.is_empty() => &["is"],
+            _ => &[],
+        };
+        if said.is_empty() {
+            words.push(token.text.clone());
+            if typed.ends_with("'s") && token.text != POSSESSIVE && next != POSSESSIVE && token.text != "let"
+            {
+                words.push("is".to_owned());
+            }
+        } else {
+            words.extend(said.iter().map(|&word| word.to_owned()));
+        }
+    }
+    words
+}
+
+/// How many words at the start name somebody who is no robot: "my wife", "the kids", "Mrs Doyle", "we".
+pub(super) fn person(words: &[String], named: &[bool], lexicon: &Lexicon) -> Option<usize> {
+    let first = words.first()?.as_str();
+    if PERSONS.contains(&first) {
+        return Some(1);
+    }
+    let people = |at: usize| {
+        let rest: Vec<&str> = words[at.min(words.len())..].iter().take(LONGEST).map(String::as_str).collect();
+        if rest.is_empty() { None } else { lexicon.longest_small("people", &rest) }
+    };
+    if let Some(length) = people(0) {
+        let titled = ["mr", "mrs", "ms", "miss", "dr", "aunt", "uncle"].contains(&first);
+        return Some(length + usize::from(titled && words.len() > length));
+    }
+    let owned = is_determiner(first) || ["both", "all"].contains(&first);
+    if owned {
+        // "my older sister", "the two kids"
+        return (1..3).find_map(|at| people(at).map(|length| at + length));
+    }
+    named.first().is_some_and(|named| *named).then_some(1)
+}
+
+impl Said<'_> {
+    fn at(&self, index: usize) -> &str {
+        self.words.get(index).map_or("", String::as_str)
+    }
+
+    fn has(&self, from: usize, any: &[&str]) -> bool {
+        self.words.iter().skip(from).any(|word| any.contains(&word.as_str()))
+    }
+
+    /// Whether it tells something and orders nothing.
+    pub(super) fn is_remark(&self, lexicon: &Lexicon) -> bool {
+        if self.only_calls(lexicon) {
+            return true;
+        }
+        let joins = self.words.iter().take_while(|word| JOINS.contains(&word.as_str())).count();
+        let joined = joins > 0 && !["and", "but", "then", "or", "that", "so"].contains(&self.at(0))
+            || self.at(0) == "so" && self.at(1) == "that";
+        let start = joins + self.fillers(joins, lexicon);
+        match self.at(start) {
+            "you" => joined && self.says_when_you_are_done(start),
+            "it" | "that" | "this" | "there" | "they" | "these" | "those" => {
+                let when = joined && !["because", "since", "as", "so"].contains(&self.at(0));
+                !when && self.is_of_a_thing(start)
+            }
+            _ => self.is_of_somebody(start, joined, lexicon) || self.is_of_something_else(start, lexicon),
+        }
+    }
+
+    /// "well", "oh", "also": how many words.
+    fn fillers(&self, from: usize, lexicon: &Lexicon) -> usize {
+        (from..self.words.len()).take_while(|&at| lexicon.is_small("chatter", &[self.at(at)])).count()
+    }
+
+    /// "Thanks", "poor thing", "hello robots", "movie time": words that only greet, thank, call or head.
+    fn only_calls(&self, lexicon: &Lexicon) -> bool {
+        let mut at = 0;
+        while at < self.words.len() {
+            let rest: Vec<&str> = self.words[at..].iter().take(LONGEST).map(String::as_str).collect();
+            match lexicon.longest_small("chatter", &rest) {
+                Some(length) => at += length,
+                None => break,
+            }
+        }
+        let heading = self.sentence
+            && self.ends
+            && self.words.len() <= 4
+            && (self.words.last().is_some_and(|word| word == "time")
+                || self.colon && !self.thing && !self.at(0).ends_with('s'))
+            && !self.has(0, &["it", "of", "for", "in", "on", "at", "with"])
+            && lexicon.verbs(self.at(0)).is_empty();
+        at >= self.words.len() && at > 0 || heading
+    }
+
+    /// "when you get a minute", "once you've done that", "while you are up": no more than when.
+    fn says_when_you_are_done(&self, start: usize) -> bool {
+        const DONE: [&str; 20] = [
+            "get", "have", "are", "go", "leave", "can", "find", "got", "done", "finished", "finish", "do",
+            "come", "head", "pass", "wake", "think", "like", "please", "feel",
+        ];
+        !self.thing
+            && self.words.len() - start <= 7
+            && DONE.contains(&self.at(start + 1))
+            && !self.has(start + 2, &["it", "them", "everything", "slices"])
+    }
+
+    /// "it's a hot day", "that's it", "there's space": of no thing that is named, nor what shall be.
+    fn is_of_a_thing(&self, start: usize) -> bool {
+        let verb = self.at(start + 1);
+        let tells = [
+            "is",
+            "are",
+            "was",
+            "were",
+            "has",
+            "have",
+            "looks",
+            "look",
+            "feels",
+            "smells",
+            "makes",
+            "seems",
+            "distract",
+            "distracts",
+            "hurts",
+            "helps",
+            "bothers",
+            "stinks",
+            "takes",
+            "saves",
+            "works",
+        ]
+        .contains(&verb);
+        let perfect = ["has", "have", "is"].contains(&verb) && self.at(start + 2) == "been";
+        tells
+            && (!self.thing || perfect)
+            && !self.has(start, &WISHES)
+            && !self.has(start, &["to"])
+            && !self.has(start, &["you", "if"])
+    }
+
+    /// "my doctor says more veg", "I'm packing", "nobody is watching".
+    fn is_of_somebody(&self, start: usize, joined: bool, lexicon: &Lexicon) -> bool {
+        let named = self.named.get(start..).unwrap_or_default();
+        let Some(length) = person(&self.words[start..], named, lexicon) else { return false };
+        let verb = start + length;
+        let speaker = ["i", "we"].contains(&self.at(start));
+        let negated = self.has(verb, &DENIALS);
+        let wished = self.has(verb, &WISHES) && !(negated && !self.thing)
+            || self.has(verb, &["have", "has"]) && self.at(verb + 1) == "to";
+        let asked = self.has(verb, &["you", "robots", "robot", "if"]);
+        let told = verb < self.words.len()
+            && self.finite(verb, lexicon)
+            && !["mean", "meant", "else"].contains(&self.at(verb));
+        // "somebody wash the cup": an order.
+        let anybody =
+            ["somebody", "someone", "anybody", "anyone", "everyone", "everybody"].contains(&self.at(start));
+        let order = anybody && !AUXILIARIES.contains(&self.at(verb)) && !self.is_past(verb, lexicon)
+            || anybody && ["can", "could", "will"].contains(&self.at(verb));
+        if !told || asked || order || wished && (speaker || self.thing) {
+            return false;
+        }
+        // "my brother left his laptop on the table": it is told of what is to be brought.
+        let later = speaker && (self.at(verb) == "will" || self.at(verb) == "am" || self.at(verb) == "are")
+            || self.has(verb, &["myself", "ourselves", "later", "tomorrow", "already", "again"]) && speaker;
+        !self.thing || later || joined
+    }
+
+    /// "Camp starts tomorrow", "the sun is killing me": of nothing that is here.
+    fn is_of_something_else(&self, start: usize, lexicon: &Lexicon) -> bool {
+        let determined = is_determiner(self.at(start));
+        if self.thing || self.has(start, &WISHES) || self.has(start, &["you", "please", "to", "it", "them"]) {
+            return false;
+        }
+        let furthest = (start + 5).min(self.words.len());
+        let verb = (start + 1..furthest).find(|&at| {
+            AUXILIARIES.contains(&self.at(at))
+                || determined && at > start + 1 && self.third_person(at, lexicon)
+        });
+        let when =
+            self.has(start, &["tomorrow", "today", "tonight", "later", "soon", "monday", "noon", "weekend"]);
+        let verb = verb.or_else(|| {
+            (when && self.third_person(start + 1, lexicon) && !self.orders_first(start, lexicon))
+                .then_some(start + 1)
+        });
+        verb.is_some() && !self.orders_first(start, lexicon)
+    }
+
+    /// Whether its first word is an order: known as one, or followed by what it is done to.
+    fn orders_first(&self, start: usize, lexicon: &Lexicon) -> bool {
+        let word = self.at(start);
+        !is_determiner(word)
+            && (lexicon.verbs(word).iter().any(|(form, _, _)| *form == VerbForm::Base)
+                || is_determiner(self.at(start + 1)))
+    }
+
+    fn is_past(&self, at: usize, lexicon: &Lexicon) -> bool {
+        let word = self.at(at);
+        word.ends_with("ed")
+            || [
+                "left", "went", "came", "made", "got", "forgot", "took", "told", "said", "put", "broke",
+                "spilt", "let",
+            ]
+            .contains(&word)
+            || lexicon.verbs(word).iter().any(|(form, _, _)| *form == VerbForm::Past)
+    }
+
+    fn third_person(&self, at: usize, lexicon: &Lexicon) -> bool {
+        let word = self.at(at);
+        word.ends_with('s')
+            && !word.ends_with("ss")
+            && word.len() > 3
+            && (lexicon.noun(&[word]).is_none() || !lexicon.verbs(word).is_empty())
+    }
+
+    /// Whether somebody does or is something here.
+    fn finite(&self, at: usize, lexicon: &Lexicon) -> bool {
+        let speaks =
+            ["i", "we", "people", "who"].contains(&self.at(at - 1)) || self.at(at - 1).ends_with('s');
+        let word = self.at(at);
+        AUXILIARIES.contains(&word)
+            || self.third_person(at, lexicon)
+            || self.is_past(at, lexicon)
+            || speaks && word.len() > 1 && !is_determiner(word) && !super::is_placed(word)
+            || DENIALS.contains(&word)
+            || ["just", "always", "actually", "really", "still", "already", "both", "only"].contains(&word)
+                && at + 1 < self.words.len()
+                && self.finite_behind(at + 1, lexicon)
+    }
+
+    fn finite_behind(&self, at: usize, lexicon: &Lexicon) -> bool {
+        AUXILIARIES.contains(&self.at(at)) || self.third_person(at, lexicon) || self.at(at).len() > 2
+    }
+}
