@@ -225,8 +225,8 @@ struct Plain {
     words: Vec<String>,
     /// What was taken for a slip of the pen, in words.
     repairs: Vec<String>,
-    /// The words with the remarks, if there are any.
-    whole: Option<Vec<String>>,
+    /// The same with things named that pronouns stand for, and with the remarks, if there are any.
+    others: Vec<Vec<String>>,
     /// What was taken for remarks.
     remarks: Vec<String>,
     /// Mended words as they were typed, and as they are read.
@@ -254,19 +254,31 @@ fn plain(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Plain {
         let tokens = rewrite::rewritten(tokens, lexicon);
         text::without_asides(tokens.into_iter().map(|token| token.text).collect(), lexicon)
     };
+    let named = remark::told_apart(&left, lexicon, scene);
+    let named = (named != left).then(|| plainer(named));
     let whole = (!remarks.is_empty()).then(|| plainer(tokens));
-    Plain { words: plainer(left), whole, repairs, remarks, typed, cut }
+    Plain {
+        words: plainer(left),
+        others: named.into_iter().chain(whole).collect(),
+        repairs,
+        remarks,
+        typed,
+        cut,
+    }
 }
 
 /// The best reading of an instruction: without its remarks, or with them where nothing is understood without.
 fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
-    let Plain { words, whole, repairs, remarks, typed, cut } = plain(instruction, lexicon, scene);
+    let Plain { words, others, repairs, remarks, typed, cut } = plain(instruction, lexicon, scene);
     let mut reading = read_words(&words, instruction, lexicon, scene);
     reading.remark(&remarks);
-    if let Some(whole) = whole.filter(|_| !reading.is_understood()) {
-        let with_remarks = read_words(&whole, instruction, lexicon, scene);
-        if with_remarks.is_understood() {
-            reading = with_remarks;
+    for words in others {
+        if reading.is_understood() {
+            break;
+        }
+        let other = read_words(&words, instruction, lexicon, scene);
+        if other.is_understood() {
+            reading = other;
         }
     }
     if cut < instruction.len() {

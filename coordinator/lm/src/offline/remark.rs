@@ -11,7 +11,9 @@ use super::text::Token;
 use super::{inflect, situation};
 use telling::Said;
 
+mod antecedent;
 mod telling;
+mod wishes;
 
 /// Who says in so many parts what to do has said all of it: what is told beside them asks for nothing more.
 const SAID_ALL: usize = 3;
@@ -48,7 +50,8 @@ struct Remarks<'a> {
 
 /// An instruction without its remarks, and the remarks.
 pub fn set_apart(tokens: &[Token], lexicon: &Lexicon, scene: &Scene<'_>) -> (Vec<Token>, Vec<String>) {
-    let text = Remarks { tokens: tokens.to_vec(), lexicon, scene };
+    let mut text = Remarks { tokens: tokens.to_vec(), lexicon, scene };
+    text.wish_for_others();
     let parts = text.parts();
     let telling: Vec<bool> = parts.iter().map(|part| text.is_remark(*part)).collect();
     let orders: Vec<bool> =
@@ -61,6 +64,12 @@ pub fn set_apart(tokens: &[Token], lexicon: &Lexicon, scene: &Scene<'_>) -> (Vec
         .map(|at| telling[at] && (said >= SAID_ALL || text.asks_for_nothing(at, &parts, &orders)))
         .collect();
     text.without(&parts, &left_out)
+}
+
+/// An instruction in which what is told of things before they are asked for is left out, and pronouns for them are
+/// replaced by their names.
+pub fn told_apart(tokens: &[Token], lexicon: &Lexicon, scene: &Scene<'_>) -> Vec<Token> {
+    Remarks { tokens: tokens.to_vec(), lexicon, scene }.name_what_is_told_of()
 }
 
 impl Remarks<'_> {
@@ -172,7 +181,23 @@ impl Remarks<'_> {
             sentence: part.from == 0 || self.at(part.from - 1) == ".",
             ends: self.at(part.to) != ",",
         };
-        said.is_remark(self.lexicon)
+        said.is_remark(self.lexicon) || said.is_vague(self.lexicon) || said.colon && self.heads(part)
+    }
+
+    /// "Closing up the kitchen now:", "get the soup going:": a heading of what is said behind it.
+    fn heads(&self, part: Part) -> bool {
+        let first = self.at(part.from);
+        let end = (part.to + 1..self.tokens.len()).find(|&at| self.is_mark(at)).unwrap_or(self.tokens.len());
+        let told = (part.to + 1..end)
+            .any(|at| is_placed(self.at(at)) || self.lexicon.adjective(&[self.at(at)]).is_some());
+        let weak = !self.is_order(part.from) || self.lexicon.is_small("weak", &[first]);
+        let listed = (part.from..part.to)
+            .any(|at| ["following", "these", "this", "bring", "take"].contains(&self.at(at)));
+        !self.names_a_thing(part)
+            && weak
+            && !listed
+            && (part.from == 0 || self.at(part.from - 1) == ".")
+            && (told || self.is_order(part.to + 1))
     }
 
     /// Whether what a part tells asks for nothing: no situation answers it, it says why or when, or the order that
@@ -184,7 +209,11 @@ impl Remarks<'_> {
         let leads = parts
             .get(at + 1)
             .is_some_and(|next| orders[at + 1] && (self.at(next.from) == "so" || self.typed(part.to) == ":"));
-        reason || leads || situation::ranked(self.lexicon, &situation::words_of(&words), false).is_empty()
+        let back = telling::refers_back(&words);
+        reason
+            || leads
+            || back
+            || situation::ranked(self.lexicon, &situation::words_of(&words), false).is_empty()
     }
 
     /// What is left, with the stronger of the marks around what was left out, and what was left out, in words.

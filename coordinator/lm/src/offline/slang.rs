@@ -68,6 +68,10 @@ pub fn spelled_out(tokens: Vec<Token>) -> Vec<Token> {
             found.push(word(full, &format!("{}'s", short.trim_end_matches('s'))));
         } else if token.text == "its" && token.typed == "its" && is_it_is(&tokens[index + 1..]) {
             found.push(word("it", "it's"));
+        } else if token.text == "youve"
+            && next.is_some_and(|next| ["finished", "done"].contains(&next.text.as_str()))
+        {
+            found.extend([word("you", "you"), word("have", "have")]);
         } else if let Some((_, full)) = SHORT.iter().find(|(short, _)| *short == token.text) {
             found.extend(full.iter().map(|text| word(text, &token.typed)));
         } else {

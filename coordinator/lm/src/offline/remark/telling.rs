@@ -144,6 +144,31 @@ pub(super) fn person(words: &[String], named: &[bool], lexicon: &Lexicon) -> Opt
     named.first().is_some_and(|named| *named).then_some(1)
 }
 
+/// Whether what stands behind a thing tells something of it that is no wish: "stinks", "has gone a bit funny", "is
+/// still fine".
+pub(super) fn tells_of_a_thing(words: &[String], lexicon: &Lexicon) -> bool {
+    let Some(first) = words.first() else { return false };
+    let has = |any: &[&str]| words.iter().any(|word| any.contains(&word.as_str()));
+    let going = super::is_placed(first);
+    let be = ["is", "are", "was", "were", "has", "have"].contains(&first.as_str());
+    let verb = first.ends_with('s') && !first.ends_with("ss")
+        || ["stink", "smell", "look", "creep", "annoy", "bother", "scare"].contains(&first.as_str());
+    !has(&WISHES)
+        && !has(&["to", "be", "nicer", "better", "gets", "takes", "can", "not"])
+        && !going
+        && (be || verb)
+        && lexicon.longest_small("idioms", &[first]).is_none()
+}
+
+/// "get the room ready for it", "sort that out": of what was said before.
+pub(super) fn refers_back(words: &[String]) -> bool {
+    let vague = ["get", "sort", "see", "deal", "fix", "prepare"].contains(&words[0].as_str())
+        || words.len() > 1 && ["and", "so"].contains(&words[0].as_str());
+    vague
+        && words.iter().any(|word| ["it", "that", "this"].contains(&word.as_str()))
+        && !words.iter().any(|word| ["make", "turn", "want", "need"].contains(&word.as_str()))
+}
+
 impl Said<'_> {
     fn at(&self, index: usize) -> &str {
         self.words.get(index).map_or("", String::as_str)
@@ -170,6 +195,14 @@ impl Said<'_> {
             }
             _ => self.is_of_somebody(start, joined, lexicon) || self.is_of_something_else(start, lexicon),
         }
+    }
+
+    /// "do whatever needs doing", "see what you can do": an order that leaves open what to do, and names nothing.
+    pub(super) fn is_vague(&self, lexicon: &Lexicon) -> bool {
+        let start = self.words.iter().take_while(|word| JOINS.contains(&word.as_str())).count();
+        let start = start + self.fillers(start, lexicon);
+        let rest: Vec<&str> = self.words.iter().skip(start).take(LONGEST).map(String::as_str).collect();
+        !self.thing && !rest.is_empty() && lexicon.longest_small("vague", &rest).is_some()
     }
 
     /// "well", "oh", "also": how many words.
