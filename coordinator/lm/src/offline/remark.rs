@@ -114,11 +114,17 @@ impl Remarks<'_> {
                     || is_determiner(next)
                     || self.lexicon.noun(&[next]).is_some() && self.lexicon.adjective(&[next]).is_none()
             }
+            "if" => ["there", "need", "needed", "necessary"].contains(&next),
+            "but" if next == "whatever" => true,
             "and" | "but" | "then" => {
                 let then = usize::from(["then", "please", "just", "also"].contains(&next));
                 self.is_order(index + 1 + then) || ["i", "im", "ill", "we", "nobody"].contains(&next)
             }
-            word => SUBORDINATORS.contains(&word) && self.at(index - 1) != "soon" && self.somebody(index + 1),
+            word => {
+                SUBORDINATORS.contains(&word)
+                    && self.at(index - 1) != "soon"
+                    && (self.somebody(index + 1) || ["you", "youve", "youre"].contains(&next))
+            }
         }
     }
 
@@ -136,8 +142,21 @@ impl Remarks<'_> {
             && self.lexicon.verbs(word).iter().any(|(form, _, _)| *form == inflect::VerbForm::Base)
     }
 
-    /// The thing of the scene that is named here, and in how many words.
+    /// Whether a thing of the scene is named here that is no class of things.
+    fn own_name(&self, index: usize) -> bool {
+        self.thing(index).is_some_and(|length| {
+            let words: Vec<&str> = (index..index + length).map(|at| self.at(at)).collect();
+            self.lexicon.noun(&words).is_none_or(|(noun, _)| !noun.class)
+        })
+    }
+
+    /// In how many words a thing of the scene is named here. "can" is no tin, and "Camp" no lamp.
     fn thing(&self, index: usize) -> Option<usize> {
+        let typed = self.typed(index);
+        let large = typed.chars().next().is_some_and(char::is_uppercase);
+        if self.at(index) == "can" || large && typed.to_lowercase() != self.at(index) {
+            return None;
+        }
         let longest = LONGEST.min(self.tokens.len().saturating_sub(index));
         (1..=longest).rev().find(|&length| {
             let words: Vec<&str> = (index..index + length).map(|at| self.at(at)).collect();
@@ -177,6 +196,7 @@ impl Remarks<'_> {
             words: &words,
             named: self.named_persons(part.from),
             thing: self.names_a_thing(part),
+            own_name: (part.from..part.to).any(|at| self.own_name(at)),
             colon: self.typed(part.to) == ":",
             sentence: part.from == 0 || self.at(part.from - 1) == ".",
             ends: self.at(part.to) != ",",
@@ -220,16 +240,16 @@ impl Remarks<'_> {
     fn without(self, parts: &[Part], left_out: &[bool]) -> (Vec<Token>, Vec<String>) {
         let mut kept: Vec<Token> = Vec::with_capacity(self.tokens.len());
         let mut remarks = Vec::new();
-        let mut bare = false;
+        let (mut bare, mut asks) = (false, false);
         for (part, left_out) in parts.iter().zip(left_out) {
             let mark = self.tokens.get(part.to).filter(|_| self.is_mark(part.to));
             if *left_out {
                 let words: Vec<&str> = (part.from..part.to).map(|at| self.at(at)).collect();
                 remarks.push(words.join(" "));
                 match (kept.last_mut(), mark) {
-                    // "the tomato, since it is rotten, in the bin"
+                    // "the tomato, since it is rotten, in the bin", "could you, when you can, wash the cup"
                     (Some(last), Some(mark)) if last.text == "," && mark.text == "," => {
-                        if preposition(&[self.at(part.to + 1)]).is_some() {
+                        if preposition(&[self.at(part.to + 1)]).is_some() || asks {
                             kept.pop();
                         }
                     }
@@ -239,6 +259,7 @@ impl Remarks<'_> {
                     }
                     _ => {}
                 }
+                asks = false;
                 bare = kept.last().is_none_or(|last| last.text == ".");
                 continue;
             }
@@ -246,6 +267,7 @@ impl Remarks<'_> {
             let from = part.from + usize::from(bare && ["so", "and", "but"].contains(&self.at(part.from)));
             kept.extend_from_slice(&self.tokens[from..part.to]);
             kept.extend(mark.cloned());
+            asks = part.to < from + 4 && ["could", "can", "would", "will", "please", "and", "then"].contains(&self.at(from));
             bare = false;
         }
         (kept, remarks)

@@ -43,6 +43,10 @@ impl Remarks<'_> {
                     self.tokens.drain(part.from..end);
                     continue;
                 }
+            } else if !told.is_empty() && self.says_where_it_is(part) {
+                let end = part.to + usize::from(part.to < self.tokens.len());
+                self.tokens.drain(part.from..end);
+                continue;
             } else if !told.is_empty()
                 && let Some(pronoun) = self.pronoun(part)
             {
@@ -55,6 +59,13 @@ impl Remarks<'_> {
             at += 1;
         }
         self.tokens
+    }
+
+    /// "it is on some shelf": no more than where.
+    fn says_where_it_is(&self, part: Part) -> bool {
+        let words = telling::spelled_out(&self.tokens[part.from..part.to]);
+        let said: Vec<&str> = words.iter().map(String::as_str).collect();
+        matches!(said.as_slice(), ["it", "is", "in" | "on", ..] | ["they", "are", "in" | "on", ..])
     }
 
     /// The first word that stands for what was spoken of.
@@ -70,6 +81,11 @@ impl Remarks<'_> {
     /// The thing that a part tells of: "that cloth in the tub stinks", "where is my pen", "my phone is in a drawer".
     fn told_of(&self, part: Part, first: bool) -> Option<Part> {
         let words = telling::spelled_out(&self.tokens[part.from..part.to]);
+        // "Phone. It is on a shelf."
+        let alone = self.thing(part.from).is_some_and(|length| part.from + length == part.to);
+        if alone && self.at(part.to) == "." {
+            return Some(part);
+        }
         let said: Vec<&str> = words.iter().map(String::as_str).collect();
         let asks = SPOKEN_OF.iter().any(|spoken| said.starts_with(spoken));
         let start = (part.from..part.to).find(|&at| self.thing(at).is_some())?;

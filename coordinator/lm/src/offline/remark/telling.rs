@@ -67,8 +67,10 @@ const PERSONS: [&str; 14] = [
 pub(super) struct Said<'w> {
     pub(super) words: &'w [String],
     pub(super) named: Vec<bool>,
-    /// A thing of the scene is named.
+    /// A thing of the scene is named, or things of a sort.
     pub(super) thing: bool,
+    /// A thing of the scene is named by its own name.
+    pub(super) own_name: bool,
     /// A colon stands behind it.
     pub(super) colon: bool,
     /// It begins a sentence.
@@ -106,6 +108,7 @@ pub(super) fn spelled_out(tokens: &[Token]) -> Vec<String> {
             "shed" if typed == "she'd" => &["she", "would"],
             "hell" if typed == "he'll" => &["he", "will"],
             "shell" if typed == "she'll" => &["she", "will"],
+            "s" | POSSESSIVE if index > 0 && ["left", "taken", "been", "gone", "got", "put"].contains(&next) => &["has"],
             "s" | POSSESSIVE if index > 0 && !next.is_empty() => &["is"],
             _ => &[],
         };
@@ -150,7 +153,7 @@ pub(super) fn tells_of_a_thing(words: &[String], lexicon: &Lexicon) -> bool {
     let Some(first) = words.first() else { return false };
     let has = |any: &[&str]| words.iter().any(|word| any.contains(&word.as_str()));
     let going = super::is_placed(first);
-    let be = ["is", "are", "was", "were", "has", "have"].contains(&first.as_str());
+    let be = first == POSSESSIVE || ["is", "are", "was", "were", "has", "have"].contains(&first.as_str());
     let verb = first.ends_with('s') && !first.ends_with("ss")
         || ["stink", "smell", "look", "creep", "annoy", "bother", "scare"].contains(&first.as_str());
     !has(&WISHES)
@@ -184,7 +187,7 @@ impl Said<'_> {
             return true;
         }
         let joins = self.words.iter().take_while(|word| JOINS.contains(&word.as_str())).count();
-        let joined = joins > 0 && !["and", "but", "then", "or", "that", "so"].contains(&self.at(0))
+        let joined = (0..joins).any(|at| !["and", "but", "then", "or", "that", "so"].contains(&self.at(at)))
             || self.at(0) == "so" && self.at(1) == "that";
         let start = joins + self.fillers(joins, lexicon);
         match self.at(start) {
@@ -227,7 +230,15 @@ impl Said<'_> {
                 || self.colon && !self.thing && !self.at(0).ends_with('s'))
             && !self.has(0, &["it", "of", "for", "in", "on", "at", "with"])
             && lexicon.verbs(self.at(0)).is_empty();
-        at >= self.words.len() && at > 0 || heading
+        // "To wrap up after the party, …"
+        let purpose = self.sentence && self.at(0) == "to" && !self.ends && !self.own_name;
+        at >= self.words.len() && at > 0 || heading || purpose || !self.own_name && self.opens_a_remark(lexicon)
+    }
+
+    /// "off to Spain for a week", "don't care who does it": by its first words.
+    fn opens_a_remark(&self, lexicon: &Lexicon) -> bool {
+        let rest: Vec<&str> = self.words.iter().take(LONGEST).map(String::as_str).collect();
+        lexicon.longest_small("remarks", &rest).is_some()
     }
 
     /// "when you get a minute", "once you've done that", "while you are up": no more than when.
@@ -281,10 +292,10 @@ impl Said<'_> {
     fn is_of_somebody(&self, start: usize, joined: bool, lexicon: &Lexicon) -> bool {
         let named = self.named.get(start..).unwrap_or_default();
         let Some(length) = person(&self.words[start..], named, lexicon) else { return false };
-        let verb = start + length;
+        let verb = self.behind_place(start + length, lexicon);
         let speaker = ["i", "we"].contains(&self.at(start));
         let negated = self.has(verb, &DENIALS);
-        let wished = self.has(verb, &WISHES) && !(negated && !self.thing)
+        let wished = self.has(verb, &WISHES) && !(negated && !self.own_name)
             || self.has(verb, &["have", "has"]) && self.at(verb + 1) == "to";
         let asked = self.has(verb, &["you", "robots", "robot", "if"]);
         let told = verb < self.words.len()
@@ -295,13 +306,27 @@ impl Said<'_> {
             ["somebody", "someone", "anybody", "anyone", "everyone", "everybody"].contains(&self.at(start));
         let order = anybody && !AUXILIARIES.contains(&self.at(verb)) && !self.is_past(verb, lexicon)
             || anybody && ["can", "could", "will"].contains(&self.at(verb));
-        if !told || asked || order || wished && (speaker || self.thing) {
+        if !told || asked || order || wished && (speaker || self.own_name) {
             return false;
         }
         // "my brother left his laptop on the table": it is told of what is to be brought.
-        let later = speaker && (self.at(verb) == "will" || self.at(verb) == "am" || self.at(verb) == "are")
+        // "I think it is in some drawer"
+        let thinks = speaker
+            && ["think", "know", "believe", "guess", "suppose", "reckon", "bet", "hope"].contains(&self.at(verb))
+            && self.has(verb, &["it", "they", "theyre", "its", "he", "she"]);
+        let later = thinks || speaker && (self.at(verb) == "will" || self.at(verb) == "am" || self.at(verb) == "are")
             || self.has(verb, &["myself", "ourselves", "later", "tomorrow", "already", "again"]) && speaker;
-        !self.thing || later || joined
+        !self.own_name || later || joined
+    }
+
+    /// The verb behind "(the lady) from the charity".
+    fn behind_place(&self, at: usize, lexicon: &Lexicon) -> usize {
+        if !["from", "of", "with", "next", "at", "in"].contains(&self.at(at)) {
+            return at;
+        }
+        let found = (at + 2..self.words.len().min(at + 6))
+            .find(|&at| AUXILIARIES.contains(&self.at(at)) || self.third_person(at, lexicon));
+        found.unwrap_or(at)
     }
 
     /// "Camp starts tomorrow", "the sun is killing me": of nothing that is here.
