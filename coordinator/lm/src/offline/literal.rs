@@ -148,3 +148,25 @@ pub fn goes_on_about_it(clause: &Clause<'_>) -> bool {
         && clause.objects.iter().all(it)
         && !clause.says_any(&["otherwise", "else"])
 }
+
+/// "lights out": whether a clause says of things of the scene what they shall be, and nothing else.
+pub fn notes_a_state(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
+    let is_here = |phrase: &syntax::Phrase| match &phrase.head {
+        syntax::Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.has(kind)),
+        syntax::Head::Named(_) => true,
+        _ => false,
+    };
+    let shuts = ["isToggled", "isOpen"];
+    !clause.objects.is_empty()
+        && clause.objects.iter().all(is_here)
+        && clause.places.is_empty()
+        && clause.unknown.is_empty()
+        && !clause.complement.is_empty()
+        && clause.complement.keys().all(|property| shuts.contains(&property.as_str()))
+}
+
+/// How many clauses but one say what to do to a thing of the scene that they name.
+pub fn others_concrete(index: usize, clauses: &[Clause<'_>], lexicon: &Lexicon, scene: &Scene<'_>) -> usize {
+    let concrete = |clause: &Clause<'_>| is_concrete(clause, lexicon, scene) || notes_a_state(clause, scene);
+    clauses.iter().enumerate().filter(|(other, clause)| *other != index && concrete(clause)).count()
+}

@@ -40,7 +40,8 @@ pub use gloss::Gloss;
 use lexicon::Lexicon;
 pub use lexicon::squash;
 use literal::{
-    goes_on_about_it, is_concrete, is_mere_step, is_weak, only_goes, only_tells, says_state, says_where,
+    goes_on_about_it, is_concrete, is_mere_step, is_weak, notes_a_state, only_goes, only_tells,
+    others_concrete, says_state, says_where,
 };
 use mention::{Discourse, Spoken};
 use scene::Scene;
@@ -251,8 +252,13 @@ fn plain(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Plain {
         .collect();
     let (left, remarks) = remark::set_apart(&tokens, lexicon, scene);
     if std::env::var_os("LMDBG").is_some() {
-        let show = |tokens: &[text::Token]| tokens.iter().map(|t| t.text.clone()).collect::<Vec<_>>().join(" ");
-        eprintln!("DBG left: {}\nDBG remarks: {remarks:?}\nDBG told: {}", show(&left), show(&remark::told_apart(&left, lexicon, scene)));
+        let show =
+            |tokens: &[text::Token]| tokens.iter().map(|t| t.text.clone()).collect::<Vec<_>>().join(" ");
+        eprintln!(
+            "DBG left: {}\nDBG remarks: {remarks:?}\nDBG told: {}",
+            show(&left),
+            show(&remark::told_apart(&left, lexicon, scene))
+        );
         eprintln!("DBG plain: {}", show(&rewrite::rewritten(left.clone(), lexicon)));
     }
     let plainer = |tokens| {
@@ -399,7 +405,11 @@ fn one_clause<'a>(
     // "I would like the soup ladle to be washed": a wish that goes on.
     let goes_on =
         clauses.get(index + 1).is_some_and(|next| next.words.starts_with(&["to".into(), "be".into()]));
+    // "close the fridge, toaster off, lights out": no more than it says.
+    let noted = notes_a_state(clause, interpreter.discourse.scene)
+        && others_concrete(index, clauses, lexicon, interpreter.discourse.scene) > 1;
     if !clause.negated
+        && !noted
         && !goes_on
         && is_weak(clause, lexicon)
         && !says_where(clause, interpreter.discourse.scene)
@@ -433,6 +443,17 @@ fn one_clause<'a>(
         return;
     }
     let remark = clause.is_remark() && clauses.len() > 1;
+    if failed
+        && remark
+        && !interpreter.spoke
+        && !names
+        && others_concrete(index, clauses, lexicon, interpreter.discourse.scene) > 0
+    {
+        before.restore(interpreter);
+        interpreter.discourse.assume(format!("took \"{}\" as a remark", clause.text), 0.95);
+        interpreter.discourse.spoken.push(Spoken::default());
+        return;
+    }
     if failed && !interpreter.spoke && !clause.negated && !is_mere_step(clause) && !remark {
         interpreter.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.4);
     }

@@ -267,7 +267,8 @@ impl Remarks<'_> {
             let from = part.from + usize::from(bare && ["so", "and", "but"].contains(&self.at(part.from)));
             kept.extend_from_slice(&self.tokens[from..part.to]);
             kept.extend(mark.cloned());
-            asks = part.to < from + 4 && ["could", "can", "would", "will", "please", "and", "then"].contains(&self.at(from));
+            asks = part.to < from + 4
+                && ["could", "can", "would", "will", "please", "and", "then"].contains(&self.at(from));
             bare = false;
         }
         (kept, remarks)

@@ -108,7 +108,11 @@ pub(super) fn spelled_out(tokens: &[Token]) -> Vec<String> {
             "shed" if typed == "she'd" => &["she", "would"],
             "hell" if typed == "he'll" => &["he", "will"],
             "shell" if typed == "she'll" => &["she", "will"],
-            "s" | POSSESSIVE if index > 0 && ["left", "taken", "been", "gone", "got", "put"].contains(&next) => &["has"],
+            "s" | POSSESSIVE
+                if index > 0 && ["left", "taken", "been", "gone", "got", "put"].contains(&next) =>
+            {
+                &["has"]
+            }
             "s" | POSSESSIVE if index > 0 && !next.is_empty() => &["is"],
             _ => &[],
         };
@@ -232,7 +236,10 @@ impl Said<'_> {
             && lexicon.verbs(self.at(0)).is_empty();
         // "To wrap up after the party, …"
         let purpose = self.sentence && self.at(0) == "to" && !self.ends && !self.own_name;
-        at >= self.words.len() && at > 0 || heading || purpose || !self.own_name && self.opens_a_remark(lexicon)
+        at >= self.words.len() && at > 0
+            || heading
+            || purpose
+            || !self.own_name && self.opens_a_remark(lexicon)
     }
 
     /// "off to Spain for a week", "don't care who does it": by its first words.
@@ -312,9 +319,11 @@ impl Said<'_> {
         // "my brother left his laptop on the table": it is told of what is to be brought.
         // "I think it is in some drawer"
         let thinks = speaker
-            && ["think", "know", "believe", "guess", "suppose", "reckon", "bet", "hope"].contains(&self.at(verb))
+            && ["think", "know", "believe", "guess", "suppose", "reckon", "bet", "hope"]
+                .contains(&self.at(verb))
             && self.has(verb, &["it", "they", "theyre", "its", "he", "she"]);
-        let later = thinks || speaker && (self.at(verb) == "will" || self.at(verb) == "am" || self.at(verb) == "are")
+        let later = thinks
+            || speaker && (self.at(verb) == "will" || self.at(verb) == "am" || self.at(verb) == "are")
             || self.has(verb, &["myself", "ourselves", "later", "tomorrow", "already", "again"]) && speaker;
         !self.own_name || later || joined
     }

@@ -1,0 +1,126 @@
+//! What is added to what was said: "the card too", "same for the lettuce", "then onto the table with it", ". On the desk."
+
+use super::{LONGEST_ASIDE, Rewriting};
+use crate::offline::syntax::{Relation, is_determiner, preposition};
+
+/// Said behind what is added.
+const TOO: [&[&str]; 5] = [&["too"], &["as", "well"], &["also"], &["likewise"], &["instead"]];
+
+/// Said before what is added.
+const SAME: [&[&str]; 11] = [
+    &["same", "for"],
+    &["same", "with"],
+    &["same", "goes", "for"],
+    &["the", "same", "for"],
+    &["the", "same", "with"],
+    &["the", "same", "goes", "for"],
+    &["likewise"],
+    &["ditto", "for"],
+    &["ditto"],
+    &["and", "likewise"],
+    &["and", "same", "for"],
+];
+
+impl Rewriting<'_> {
+    /// All of them, part by part.
+    pub(super) fn afterthoughts(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let opens = index == 0 || self.is_mark(index - 1);
+            if opens && !self.is_mark(index) {
+                let _ = self.likewise(index) || self.too(index);
+                self.with_it(index);
+                self.place_alone(index);
+            }
+            index += 1;
+        }
+    }
+
+    /// "bin the egg. same for the lettuce": the lettuce too; what comes behind it is another thing.
+    fn likewise(&mut self, index: usize) -> bool {
+        let Some(length) = self.one_of(index, &SAME) else { return false };
+        let end = self.next_mark(index, &[",", "."]);
+        if index == 0 || end <= index + length || !self.names_only(index + length, end) {
+            return false;
+        }
+        self.say(index, index + length, &[]);
+        self.add_to_what_was_said(index, end - length);
+        true
+    }
+
+    /// "the book too", "blinds down as well": added, or said again.
+    fn too(&mut self, index: usize) -> bool {
+        let end = self.next_mark(index, &[",", "."]);
+        let Some(too) =
+            (index + 1..end).find(|&at| self.one_of(at, &TOO).is_some_and(|length| at + length == end))
+        else {
+            return false;
+        };
+        let joins = usize::from(["and", "plus"].contains(&self.at(index)));
+        if index > 0 && self.names_only(index + joins, too) {
+            self.say(too, end, &[]);
+            self.say(index, index + joins, &[]);
+            self.add_to_what_was_said(index, too - joins);
+            return true;
+        }
+        let told =
+            (index..too).any(|at| self.lexicon.adjective(&[self.at(at)]).is_some() || self.is_place(at));
+        if told && too - index <= LONGEST_ASIDE && !self.is_order(index) {
+            self.say(too, end, &[]);
+        }
+        told
+    }
+
+    /// Joins things to the part before them, and parts them from what comes then.
+    fn add_to_what_was_said(&mut self, index: usize, end: usize) {
+        if index > 0 {
+            self.say(index - 1, index, &[","]);
+        }
+        let more = end + 1 < self.tokens.len() && self.at(end) == ",";
+        if more && !self.lexicon.is_small("parallel", &[self.at(end + 1)]) {
+            self.say(end, end + 1, &["."]);
+        }
+    }
+
+    /// "then onto the table with it", "desk with it": put it there.
+    fn with_it(&mut self, index: usize) {
+        let end = self.next_mark(index, &[",", "."]);
+        let joins =
+            (index..end).take_while(|&at| ["and", "then", "afterwards"].contains(&self.at(at))).count();
+        let start = index + joins;
+        if end < start + 3
+            || self.at(end - 2) != "with"
+            || !["it", "them", "that", "both"].contains(&self.at(end - 1))
+        {
+            return;
+        }
+        let there = preposition(&[self.at(start)])
+            .is_some_and(|(relation, _)| matches!(relation, Relation::In | Relation::To));
+        let bare = self.names_only(start, end - 2) && !self.is_order(start);
+        let named = there && self.noun_before(end - 2).is_some();
+        if named || bare {
+            let mut order = vec!["put".to_owned(), self.at(end - 1).to_owned()];
+            if bare {
+                order.push("to".to_owned());
+            }
+            if bare && !is_determiner(self.at(start)) {
+                order.push("the".to_owned());
+            }
+            order.extend(self.words(start..end - 2));
+            self.say_all(start, end, &order);
+        }
+    }
+
+    /// "give me the apple, washed. On the table.": put it there.
+    fn place_alone(&mut self, index: usize) {
+        let end = self.next_mark(index, &[",", "."]);
+        let there = ["on", "in", "onto", "into", "to"].contains(&self.at(index));
+        let thing = index + 1 + usize::from(is_determiner(self.at(index + 1)));
+        let noun = self.noun_before(end).map_or(0, |noun| noun.len());
+        let alone =
+            index > 0 && self.at(index - 1) == "." && (end >= self.tokens.len() || self.at(end) == ".");
+        if alone && there && noun > 0 && thing + noun == end {
+            self.say(index, index, &["put", "it"]);
+        }
+    }
+}

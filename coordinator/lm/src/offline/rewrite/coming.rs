@@ -1,0 +1,131 @@
+//! Where things come from and end up: "the pan comes out of the sink and goes …", "ends up in the box", "plate it".
+
+use super::{Rewriting, SHALL};
+use crate::offline::clause::is_going;
+use crate::offline::syntax::is_determiner;
+
+impl Rewriting<'_> {
+    /// All of them.
+    pub(super) fn comings(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            self.comes_from(index);
+            self.ends_up(index);
+            self.put_in_between(index);
+            self.that_same(index);
+            self.plated(index);
+            index += 1;
+        }
+    }
+
+    /// "comes out of the sink and goes on the plate", "come off the table and onto the shelf": it goes there.
+    fn comes_from(&mut self, index: usize) {
+        if index == 0 || !["come", "comes"].contains(&self.at(index)) {
+            return;
+        }
+        let subject = self.noun_before(index).is_some()
+            || SHALL.contains(&self.at(index - 1))
+            || ["to", "it", "they", "that"].contains(&self.at(index - 1));
+        let from = match (self.at(index + 1), self.at(index + 2)) {
+            ("out" | "off", "of" | "from") => 2,
+            ("off" | "from", _) => 1,
+            _ => return,
+        };
+        let first = index + 1 + from;
+        let noun = (first + 1..first + 5).find(|&at| {
+            (self.noun_before(at).is_some() || self.at(at - 1) == "there")
+                && ["and", ","].contains(&self.at(at))
+        });
+        let Some(end) =
+            noun.filter(|_| subject && (is_determiner(self.at(first)) || self.at(first) == "there"))
+        else {
+            return;
+        };
+        let behind = end + 1 + usize::from(self.at(end + 1) == "then");
+        let going = if self.at(index) == "comes" { "goes" } else { "go" };
+        if is_going(self.at(behind)) || ["get", "gets"].contains(&self.at(behind)) {
+            self.say(index, behind, &[]);
+        } else if ["onto", "into", "on", "in", "to", "back"].contains(&self.at(behind))
+            && self.at(end) == "and"
+        {
+            self.say(index, behind, &[going]);
+        }
+    }
+
+    /// "the knife you used ends up in the sink": it goes there.
+    fn ends_up(&mut self, index: usize) {
+        let used = match (self.at(index), self.at(index + 1), self.at(index + 2)) {
+            ("you" | "i" | "we", "used", _) | ("youve" | "weve", "used", _) => 2,
+            ("you" | "i" | "we", "have", "used") => 3,
+            _ => 0,
+        };
+        if index > 0 && used > 0 && self.noun_before(index).is_some() {
+            let behind = self.at(index + used);
+            let ends = is_going(behind) || SHALL.contains(&behind) || ["ends", "end"].contains(&behind);
+            if ends || self.is_mark(index + used) || self.is_place(index + used) {
+                self.say(index, index + used, &[]);
+            }
+        }
+        let placed = self.at(index + 1) == "up" && self.is_place(index + 2);
+        if index > 0
+            && placed
+            && ["ends", "end"].contains(&self.at(index))
+            && self.noun_before(index).is_some()
+        {
+            let going = if self.at(index) == "ends" { "goes" } else { "go" };
+            self.say(index, index + 2, &[going]);
+        }
+    }
+
+    /// "the towels put away in the drawer": put them there.
+    fn put_in_between(&mut self, index: usize) {
+        let start = self.clause_start(index);
+        let joins = (start..index).take_while(|&at| ["and", "but", "then"].contains(&self.at(at))).count();
+        let first = start + joins;
+        let away = ["away", "back", "down"].contains(&self.at(index + 1)) && self.is_place(index + 2);
+        if self.at(index) == "put"
+            && away
+            && index > first
+            && self.names_only(first, index)
+            && is_determiner(self.at(first))
+        {
+            let mut order = vec!["put".to_owned()];
+            order.extend(self.words(first..index));
+            self.say_all(first, index + 2, &order);
+        }
+    }
+
+    /// "on the side table; … on that same table": on the side table.
+    fn that_same(&mut self, index: usize) {
+        let same = is_determiner(self.at(index)) && self.at(index + 1) == "same";
+        let Some(noun) = self.noun_before(index + 3).filter(|noun| same && noun.len() == 1) else { return };
+        let named = (2..index).rev().find_map(|end| {
+            let earlier = self.noun_before(end)?;
+            (earlier.last() == noun.last()).then_some(earlier)
+        });
+        if let Some(named) = named {
+            let mut said = vec!["the".to_owned()];
+            said.extend(named);
+            self.say_all(index, index + 3, &said);
+        }
+    }
+
+    /// "fry an egg, plate it": put it on the plate.
+    fn plated(&mut self, index: usize) {
+        let it = ["it", "them"].contains(&self.at(index + 1));
+        if self.at(index) == "plate" && it && self.opens_part(index) {
+            let it = self.at(index + 1).to_owned();
+            let up = usize::from(self.at(index + 2) == "up");
+            self.say(index, index + 2 + up, &["put", &it, "on", "the", "plate"]);
+        }
+        // "…, starting with the bat on the floor": put it there first.
+        if self.at(index) == "starting"
+            && self.at(index + 1) == "with"
+            && is_determiner(self.at(index + 2))
+            && index > 0
+            && self.is_mark(index - 1)
+        {
+            self.say(index - 1, index + 2, &["."]);
+        }
+    }
+}
