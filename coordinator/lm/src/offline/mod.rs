@@ -395,7 +395,8 @@ fn one_clause<'a>(
     }
     // "empty the sink by moving the pan to the stove": what comes next says how.
     let by = clauses.get(index + 1).is_some_and(|next| next.words.first().is_some_and(|word| word == "by"));
-    let words = situation::words_of(&clause.words);
+    let so = clause.words.iter().take_while(|word| ["and", "so", "but", ","].contains(&word.as_str())).count();
+    let words = situation::words_of(&clause.words[so..]);
     let names =
         clause.objects.iter().any(|p| matches!(p.head, syntax::Head::Noun(_) | syntax::Head::Named(_)));
     if by && !names && is_weak(clause, lexicon) {

@@ -34,6 +34,9 @@ const SUBORDINATORS: [&str; 12] = [
     "otherwise",
 ];
 
+/// Names that are no persons'.
+const DAYS: [&str; 7] = ["monday", "tuesday", "wednesday", "thursday", "friday", "saturday", "sunday"];
+
 /// Tokens from one place up to another.
 #[derive(Clone, Copy, Debug)]
 struct Part {
@@ -57,11 +60,15 @@ pub fn set_apart(tokens: &[Token], lexicon: &Lexicon, scene: &Scene<'_>) -> (Vec
     let orders: Vec<bool> =
         parts.iter().zip(&telling).map(|(part, tells)| !tells && text.orders(*part)).collect();
     let said = orders.iter().filter(|orders| **orders).count();
+    // "Let's clear the table. The cup goes …, the plate …, the bread …": so it is done.
+    let announced = |at: usize| said > SAID_ALL && text.announces(parts[at]);
     if said == 0 {
         return (text.tokens, Vec::new());
     }
     let left_out: Vec<bool> = (0..parts.len())
-        .map(|at| telling[at] && (said >= SAID_ALL || text.asks_for_nothing(at, &parts, &orders)))
+        .map(|at| {
+            announced(at) || telling[at] && (said >= SAID_ALL || text.asks_for_nothing(at, &parts, &orders))
+        })
         .collect();
     text.without(&parts, &left_out)
 }
@@ -138,7 +145,7 @@ impl Remarks<'_> {
     fn is_order(&self, index: usize) -> bool {
         let word = self.at(index);
         let base = !word.ends_with('s') || word.ends_with("ss");
-        base && self.lexicon.noun(&[word]).is_none()
+        base && !is_going(word) && self.lexicon.noun(&[word]).is_none()
             && self.lexicon.verbs(word).iter().any(|(form, _, _)| *form == inflect::VerbForm::Base)
     }
 
@@ -202,6 +209,16 @@ impl Remarks<'_> {
             ends: self.at(part.to) != ",",
         };
         said.is_remark(self.lexicon) || said.is_vague(self.lexicon) || said.colon && self.heads(part)
+    }
+
+    /// "Let's clear the table.", "I need a coffee.": what is done by what is said behind it.
+    fn announces(&self, part: Part) -> bool {
+        let opens = part.from == 0 && [".", ":"].contains(&self.at(part.to)) && part.to - part.from <= 6;
+        let clears = ["clear", "tidy", "clean", "sort"].contains(&self.at(part.from + 1)) && self.at(part.from) == "let";
+        let wish = ["i", "id", "we"].contains(&self.at(part.from))
+            && (part.from + 1..part.from + 3).any(|at| ["need", "want", "love", "fancy"].contains(&self.at(at)))
+            && !(part.from..part.to).any(|at| self.own_name(at) || self.is_order(at) && at > part.from + 2);
+        opens && (clears || wish)
     }
 
     /// "Closing up the kitchen now:", "get the soup going:": a heading of what is said behind it.
@@ -270,6 +287,9 @@ impl Remarks<'_> {
             asks = part.to < from + 4
                 && ["could", "can", "would", "will", "please", "and", "then"].contains(&self.at(from));
             bare = false;
+        }
+        if kept.last().is_some_and(|last| last.text == ",") {
+            kept.pop();
         }
         (kept, remarks)
     }

@@ -2,7 +2,7 @@
 
 use super::super::inflect::VerbForm;
 use super::super::lexicon::{LONGEST, Lexicon};
-use super::super::syntax::is_determiner;
+use super::super::syntax::{is_determiner, is_function_word, preposition};
 use super::super::text::{POSSESSIVE, Token};
 
 /// What is and has been, and what will be.
@@ -12,9 +12,9 @@ const AUXILIARIES: [&str; 24] = [
 ];
 
 /// What asks for something.
-const WISHES: [&str; 22] = [
+const WISHES: [&str; 20] = [
     "want", "wants", "need", "needs", "prefer", "prefers", "rather", "require", "requires", "fancy",
-    "should", "must", "shall", "ought", "shouldnt", "mustnt", "like", "love", "expect", "insist", "deserves",
+    "should", "must", "shall", "ought", "shouldnt", "mustnt", "expect", "insist", "deserves",
     "wish",
 ];
 
@@ -22,7 +22,7 @@ const WISHES: [&str; 22] = [
 const DENIALS: [&str; 6] = ["dont", "doesnt", "not", "never", "didnt", "wont"];
 
 /// What may stand before what is told.
-const JOINS: [&str; 20] = [
+const JOINS: [&str; 19] = [
     "and",
     "but",
     "so",
@@ -42,7 +42,6 @@ const JOINS: [&str; 20] = [
     "till",
     "whenever",
     "though",
-    "whatever",
 ];
 
 /// Somebody, by no name.
@@ -185,6 +184,14 @@ impl Said<'_> {
         self.words.iter().skip(from).any(|word| any.contains(&word.as_str()))
     }
 
+    /// Whether something is wished for, from a place on.
+    fn wishes(&self, from: usize) -> bool {
+        let wisher = ["would", "i", "we", "he", "she", "they", "really", "also", "d"];
+        self.has(from, &WISHES)
+            || (from.max(1)..self.words.len())
+                .any(|at| ["like", "love"].contains(&self.at(at)) && wisher.contains(&self.at(at - 1)))
+    }
+
     /// Whether it tells something and orders nothing.
     pub(super) fn is_remark(&self, lexicon: &Lexicon) -> bool {
         if self.only_calls(lexicon) {
@@ -208,8 +215,11 @@ impl Said<'_> {
     pub(super) fn is_vague(&self, lexicon: &Lexicon) -> bool {
         let start = self.words.iter().take_while(|word| JOINS.contains(&word.as_str())).count();
         let start = start + self.fillers(start, lexicon);
-        let rest: Vec<&str> = self.words.iter().skip(start).take(LONGEST).map(String::as_str).collect();
-        !self.thing && !rest.is_empty() && lexicon.longest_small("vague", &rest).is_some()
+        let opens = |from: usize| {
+            let rest: Vec<&str> = self.words.iter().skip(from).take(LONGEST).map(String::as_str).collect();
+            !rest.is_empty() && lexicon.longest_small("vague", &rest).is_some()
+        };
+        !self.thing && (0..=start).any(opens)
     }
 
     /// "well", "oh", "also": how many words.
@@ -219,7 +229,8 @@ impl Said<'_> {
 
     /// "Thanks", "poor thing", "hello robots", "movie time": words that only greet, thank, call or head.
     fn only_calls(&self, lexicon: &Lexicon) -> bool {
-        let mut at = 0;
+        let joins = self.words.iter().take_while(|word| ["and", "but", "or", "then"].contains(&word.as_str())).count();
+        let mut at = joins;
         while at < self.words.len() {
             let rest: Vec<&str> = self.words[at..].iter().take(LONGEST).map(String::as_str).collect();
             match lexicon.longest_small("chatter", &rest) {
@@ -227,16 +238,18 @@ impl Said<'_> {
                 None => break,
             }
         }
+        let named = |at: usize| lexicon.is_small("headings", &[self.at(at)]);
         let heading = self.sentence
-            && self.ends
             && self.words.len() <= 4
-            && (self.words.last().is_some_and(|word| word == "time")
-                || self.colon && !self.thing && !self.at(0).ends_with('s'))
+            && !self.own_name
+            && (1..self.words.len()).any(named)
             && !self.has(0, &["it", "of", "for", "in", "on", "at", "with"])
-            && lexicon.verbs(self.at(0)).is_empty();
+            && (lexicon.verbs(self.at(0)).is_empty() || self.words.len() == 2)
+            || self.sentence && self.at(0) == "for" && self.words.len() <= 4 && !self.own_name && !self.ends
+            || self.sentence && self.words.concat() == "goodnight";
         // "To wrap up after the party, …"
         let purpose = self.sentence && self.at(0) == "to" && !self.ends && !self.own_name;
-        at >= self.words.len() && at > 0
+        at >= self.words.len() && at > joins
             || heading
             || purpose
             || !self.own_name && self.opens_a_remark(lexicon)
@@ -290,7 +303,7 @@ impl Said<'_> {
         let perfect = ["has", "have", "is"].contains(&verb) && self.at(start + 2) == "been";
         tells
             && (!self.thing || perfect)
-            && !self.has(start, &WISHES)
+            && !self.wishes(start)
             && !self.has(start, &["to"])
             && !self.has(start, &["you", "if"])
     }
@@ -302,7 +315,7 @@ impl Said<'_> {
         let verb = self.behind_place(start + length, lexicon);
         let speaker = ["i", "we"].contains(&self.at(start));
         let negated = self.has(verb, &DENIALS);
-        let wished = self.has(verb, &WISHES) && !(negated && !self.own_name)
+        let wished = self.wishes(verb) && !(negated && !self.own_name)
             || self.has(verb, &["have", "has"]) && self.at(verb + 1) == "to";
         let asked = self.has(verb, &["you", "robots", "robot", "if"]);
         let told = verb < self.words.len()
@@ -341,7 +354,7 @@ impl Said<'_> {
     /// "Camp starts tomorrow", "the sun is killing me": of nothing that is here.
     fn is_of_something_else(&self, start: usize, lexicon: &Lexicon) -> bool {
         let determined = is_determiner(self.at(start));
-        if self.thing || self.has(start, &WISHES) || self.has(start, &["you", "please", "to", "it", "them"]) {
+        if self.thing || self.wishes(start) || self.has(start, &["you", "please", "to", "it", "them"]) {
             return false;
         }
         let furthest = (start + 5).min(self.words.len());
@@ -382,6 +395,8 @@ impl Said<'_> {
         word.ends_with('s')
             && !word.ends_with("ss")
             && word.len() > 3
+            && !is_function_word(word)
+            && !["things", "pieces", "slices", "items", "halves", "both"].contains(&word)
             && (lexicon.noun(&[word]).is_none() || !lexicon.verbs(word).is_empty())
     }
 
@@ -393,7 +408,7 @@ impl Said<'_> {
         AUXILIARIES.contains(&word)
             || self.third_person(at, lexicon)
             || self.is_past(at, lexicon)
-            || speaks && word.len() > 1 && !is_determiner(word) && !super::is_placed(word)
+            || speaks && word.len() > 1 && !is_determiner(word) && preposition(&[word]).is_none()
             || DENIALS.contains(&word)
             || ["just", "always", "actually", "really", "still", "already", "both", "only"].contains(&word)
                 && at + 1 < self.words.len()

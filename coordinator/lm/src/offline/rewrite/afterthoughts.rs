@@ -30,6 +30,9 @@ impl Rewriting<'_> {
             if opens && !self.is_mark(index) {
                 let _ = self.likewise(index) || self.too(index);
                 self.with_it(index);
+                self.on_it_goes(index);
+                self.not_there(index);
+                self.fine_for_it(index);
                 self.place_alone(index);
             }
             index += 1;
@@ -64,7 +67,7 @@ impl Rewriting<'_> {
             return true;
         }
         let told =
-            (index..too).any(|at| self.lexicon.adjective(&[self.at(at)]).is_some() || self.is_place(at));
+            (index..too).any(|at| self.lexicon.adjective(&[self.at(at)]).is_some() || self.is_place(at) || ["down", "up", "on", "off"].contains(&self.at(at)));
         if told && too - index <= LONGEST_ASIDE && !self.is_order(index) {
             self.say(too, end, &[]);
         }
@@ -108,6 +111,58 @@ impl Rewriting<'_> {
             }
             order.extend(self.words(start..end - 2));
             self.say_all(start, end, &order);
+        }
+    }
+
+    /// "wash it, then into the drawer": put it there.
+    fn on_it_goes(&mut self, index: usize) {
+        let end = self.next_mark(index, &[",", "."]);
+        let joins = (index..end).take_while(|&at| ["and", "then"].contains(&self.at(at))).count();
+        let start = index + joins;
+        let thing = start + 1 + usize::from(is_determiner(self.at(start + 1)));
+        let noun = self.noun_before(end).map_or(0, |noun| noun.len());
+        let before = self.clause_start(index.saturating_sub(1));
+        let ordered = index > 1 && self.is_order(before) && !(before..index).any(|at| self.is_place(at));
+        let it = ["it", "them"].into_iter().find(|it| (before..index).any(|at| self.at(at) == *it));
+        if let (true, Some(it)) = (ordered && self.at(start.wrapping_sub(1)) == "then", it)
+            && ["into", "onto", "in", "on"].contains(&self.at(start))
+            && noun > 0
+            && thing + noun == end
+        {
+            self.say(start, start, &["put", it]);
+        }
+    }
+
+    /// "the tissues should be on the toilet, not shut away in a cabinet": not in a cabinet; "to the chair not sofa".
+    fn not_there(&mut self, index: usize) {
+        let end = self.next_mark(index, &[",", "."]);
+        if self.at(index) == "not" && self.is_participle(index + 1) {
+            let away = usize::from(["away", "up", "back"].contains(&self.at(index + 2)));
+            if self.is_place(index + 2 + away) {
+                self.say(index + 1, index + 2 + away, &[]);
+            }
+        }
+        let not = (index + 2..end).find(|&at| self.at(at) == "not" && self.noun_before(at).is_some());
+        if let Some(not) = not.filter(|&not| self.names_only(not + 1, end) && !self.is_order(not + 1)) {
+            if (index..not).any(|at| self.is_place(at)) {
+                self.say(not, end, &[]);
+            }
+        }
+    }
+
+    /// "the bed is fine for it": it goes there.
+    fn fine_for_it(&mut self, index: usize) {
+        const FINE: [&str; 9] = ["fine", "good", "ok", "okay", "perfect", "best", "great", "better", "enough"];
+        let end = self.next_mark(index, &[",", "."]);
+        let Some(is) = (index + 1..end).find(|&at| self.at(at) == "is") else { return };
+        let it = ["it", "them", "that"].contains(&self.at(is + 3));
+        if self.names_only(index, is) && FINE.contains(&self.at(is + 1)) && self.at(is + 2) == "for" && it && is + 4 == end {
+            let mut order = vec!["put".to_owned(), self.at(is + 3).to_owned(), "to".to_owned()];
+            if !is_determiner(self.at(index)) {
+                order.push("the".to_owned());
+            }
+            order.extend(self.words(index..is));
+            self.say_all(index, end, &order);
         }
     }
 

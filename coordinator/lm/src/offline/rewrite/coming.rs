@@ -14,6 +14,9 @@ impl Rewriting<'_> {
             self.put_in_between(index);
             self.that_same(index);
             self.plated(index);
+            self.out_and_into(index);
+            self.all_of_them(index);
+            self.filled_at(index);
             index += 1;
         }
     }
@@ -126,6 +129,70 @@ impl Rewriting<'_> {
             && self.is_mark(index - 1)
         {
             self.say(index - 1, index + 2, &["."]);
+        }
+    }
+
+    /// "the bottle out of the cupboard and onto the table": it goes there.
+    fn out_and_into(&mut self, index: usize) {
+        let start = self.clause_start(index);
+        let from = match (self.at(index), self.at(index + 1)) {
+            ("out" | "off", "of") => 2,
+            ("off", _) => 1,
+            _ => return,
+        };
+        let joins = (index + from + 1..index + from + 6).find(|&at| self.at(at) == "and" && self.noun_before(at).is_some());
+        let onto = joins.is_some_and(|and| ["onto", "into", "to", "on", "in"].contains(&self.at(and + 1)));
+        if let Some(and) = joins.filter(|_| onto && index > start && self.names_only(start, index) && !self.is_order(start)) {
+            let end = self.next_mark(and, &[",", "."]);
+            let plain = !(and..end).any(|at| self.at(at) == "with");
+            if plain {
+                self.say(index, and + 1, &["should", "be"]);
+            }
+        }
+    }
+
+    /// "the two of them", "the pair", "the two clean things": both of them.
+    fn all_of_them(&mut self, index: usize) {
+        let two = self.at(index) == "the" && ["two", "pair", "both"].contains(&self.at(index + 1));
+        if !two {
+            return;
+        }
+        if self.starts(index + 2, &["of", "them"]) {
+            self.say(index, index + 4, &["both", "of", "them"]);
+            return;
+        }
+        let state = usize::from(self.lexicon.adjective(&[self.at(index + 2)]).is_some());
+        let things = ["things", "items", "objects", "ones"].contains(&self.at(index + 2 + state));
+        let pair = self.at(index + 1) == "pair" && (self.is_mark(index + 2) || is_going(self.at(index + 2)));
+        if things && (is_going(self.at(index + 3 + state)) || ["then", "should"].contains(&self.at(index + 3 + state))) {
+            self.say(index, index + 3 + state, &["both", "of", "them"]);
+        } else if pair {
+            self.say(index, index + 2, &["both", "of", "them"]);
+        }
+    }
+
+    /// "fill the mug at the coffee maker", "the cup filled at the tap": with coffee, with water.
+    fn filled_at(&mut self, index: usize) {
+        let there = ["at", "from", "under"].contains(&self.at(index)) && is_determiner(self.at(index + 1));
+        let start = self.clause_start(index);
+        let fills = (start..index).any(|at| ["fill", "filled", "fills"].contains(&self.at(at)));
+        let with = (start..index).any(|at| self.at(at) == "with");
+        if !there || !fills || with {
+            return;
+        }
+        let end = (index + 3..index + 6).find(|&at| self.noun_before(at).is_some());
+        let kinds = end.and_then(|end| {
+            let words = self.words(index + 2..end);
+            let words: Vec<&str> = words.iter().map(String::as_str).collect();
+            self.lexicon.noun(&words).map(|(noun, _)| noun.kinds.clone())
+        });
+        let liquid = kinds.and_then(|kinds| match kinds.first().map(String::as_str) {
+            Some("Faucet") => Some("water"),
+            Some("CoffeeMachine") => Some("coffee"),
+            _ => None,
+        });
+        if let (Some(liquid), Some(end)) = (liquid, end) {
+            self.say(index, end, &["with", liquid]);
         }
     }
 }
