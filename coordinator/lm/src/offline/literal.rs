@@ -170,3 +170,11 @@ pub fn others_concrete(index: usize, clauses: &[Clause<'_>], lexicon: &Lexicon, 
     let concrete = |clause: &Clause<'_>| is_concrete(clause, lexicon, scene) || notes_a_state(clause, scene);
     clauses.iter().enumerate().filter(|(other, clause)| *other != index && concrete(clause)).count()
 }
+
+/// "going to sleep now", "heading out": of somebody's own going, not of a robot's.
+pub fn tells_of_going(clause: &Clause<'_>) -> bool {
+    let first =
+        clause.words.iter().find(|word| ![",", "and", "so", "im", "i", "we", "am"].contains(&word.as_str()));
+    only_goes(clause)
+        && first.is_some_and(|word| ["going", "heading", "leaving", "off"].contains(&word.as_str()))
+}

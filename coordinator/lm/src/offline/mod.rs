@@ -41,7 +41,7 @@ use lexicon::Lexicon;
 pub use lexicon::squash;
 use literal::{
     goes_on_about_it, is_concrete, is_mere_step, is_weak, notes_a_state, only_goes, only_tells,
-    others_concrete, says_state, says_where,
+    others_concrete, says_state, says_where, tells_of_going,
 };
 use mention::{Discourse, Spoken};
 use scene::Scene;
@@ -395,7 +395,8 @@ fn one_clause<'a>(
     }
     // "empty the sink by moving the pan to the stove": what comes next says how.
     let by = clauses.get(index + 1).is_some_and(|next| next.words.first().is_some_and(|word| word == "by"));
-    let so = clause.words.iter().take_while(|word| ["and", "so", "but", ","].contains(&word.as_str())).count();
+    let so =
+        clause.words.iter().take_while(|word| ["and", "so", "but", ","].contains(&word.as_str())).count();
     let words = situation::words_of(&clause.words[so..]);
     let names =
         clause.objects.iter().any(|p| matches!(p.head, syntax::Head::Noun(_) | syntax::Head::Named(_)));
@@ -437,6 +438,14 @@ fn one_clause<'a>(
             return;
         }
         literal.restore(interpreter);
+    }
+    // "going to sleep now, so …"
+    if !failed && !interpreter.spoke && tells_of_going(clause) {
+        let ranked = situation::ranked(lexicon, &words, false);
+        if interpreter.first_situation(index, &ranked, &words) {
+            interpreter.speak_of_what_came_about(index, clauses);
+            return;
+        }
     }
     if failed && by && !interpreter.spoke {
         before.restore(interpreter);

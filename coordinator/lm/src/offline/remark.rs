@@ -115,7 +115,7 @@ impl Remarks<'_> {
         match self.at(index) {
             "because" => true,
             "so" => {
-                ["that", "please", "can", "could", "will", "would"].contains(&next)
+                ["that", "no", "please", "can", "could", "will", "would"].contains(&next)
                     || self.somebody(index + 1)
                     || self.is_order(index + 1)
                     || is_determiner(next)
@@ -145,7 +145,8 @@ impl Remarks<'_> {
     fn is_order(&self, index: usize) -> bool {
         let word = self.at(index);
         let base = !word.ends_with('s') || word.ends_with("ss");
-        base && !is_going(word) && self.lexicon.noun(&[word]).is_none()
+        base && !is_going(word)
+            && self.lexicon.noun(&[word]).is_none()
             && self.lexicon.verbs(word).iter().any(|(form, _, _)| *form == inflect::VerbForm::Base)
     }
 
@@ -188,10 +189,13 @@ impl Remarks<'_> {
             let typed = self.typed(at);
             let capital = typed.chars().next().is_some_and(char::is_uppercase);
             let lower = typed.chars().skip(1).all(|c| c.is_lowercase() || c == '\'');
+            let plain = typed.to_lowercase();
+            let plain = plain.trim_end_matches("'s");
             capital
                 && lower
                 && typed.len() > 2
-                && !super::text::is_known(self.at(at), self.lexicon, self.scene)
+                && !DAYS.contains(&plain)
+                && !super::text::is_known(plain, self.lexicon, self.scene)
         };
         (from..self.tokens.len()).map(named).collect()
     }
@@ -213,12 +217,15 @@ impl Remarks<'_> {
 
     /// "Let's clear the table.", "I need a coffee.": what is done by what is said behind it.
     fn announces(&self, part: Part) -> bool {
-        let opens = part.from == 0 && [".", ":"].contains(&self.at(part.to)) && part.to - part.from <= 6;
-        let clears = ["clear", "tidy", "clean", "sort"].contains(&self.at(part.from + 1)) && self.at(part.from) == "let";
+        let opens = part.from == 0 && part.to - part.from <= 6;
+        let ends = self.at(part.to) == ".";
+        let clears = ["clear", "tidy", "clean", "sort"].contains(&self.at(part.from + 1))
+            && self.at(part.from) == "let";
         let wish = ["i", "id", "we"].contains(&self.at(part.from))
-            && (part.from + 1..part.from + 3).any(|at| ["need", "want", "love", "fancy"].contains(&self.at(at)))
+            && (part.from + 1..part.from + 3)
+                .any(|at| ["need", "want", "love", "fancy"].contains(&self.at(at)))
             && !(part.from..part.to).any(|at| self.own_name(at) || self.is_order(at) && at > part.from + 2);
-        opens && (clears || wish)
+        opens && (clears || ends && wish)
     }
 
     /// "Closing up the kitchen now:", "get the soup going:": a heading of what is said behind it.
@@ -247,9 +254,23 @@ impl Remarks<'_> {
             .get(at + 1)
             .is_some_and(|next| orders[at + 1] && (self.at(next.from) == "so" || self.typed(part.to) == ":"));
         let back = telling::refers_back(&words);
+        let said = orders.iter().filter(|orders| **orders).count();
+        let own = if said > 1 { &["later", "myself", "ourselves"][..] } else { &["later"] };
+        let later = words.iter().any(|word| own.contains(&word.as_str()));
+        // "open the blinds, it is like a cave in here": why.
+        let explains = at > 0 && orders[at - 1] && self.typed(parts[at - 1].to) == ",";
+        // "it feels so gloomy in here, brighten things up": what is asked for is said.
+        let asked = parts.get(at + 1).is_some_and(|next| {
+            let words: Vec<String> = (next.from..next.to).map(|at| self.at(at).to_owned()).collect();
+            let strong = situation::ranked(self.lexicon, &situation::words_of(&words), true);
+            !orders[at + 1] && !self.is_remark(*next) && !strong.is_empty()
+        });
         reason
             || leads
             || back
+            || later
+            || explains
+            || asked
             || situation::ranked(self.lexicon, &situation::words_of(&words), false).is_empty()
     }
 
@@ -284,8 +305,7 @@ impl Remarks<'_> {
             let from = part.from + usize::from(bare && ["so", "and", "but"].contains(&self.at(part.from)));
             kept.extend_from_slice(&self.tokens[from..part.to]);
             kept.extend(mark.cloned());
-            asks = part.to < from + 4
-                && ["could", "can", "would", "will", "please", "and", "then"].contains(&self.at(from));
+            asks = part.to < from + 4 && !self.names_a_thing(*part) && !self.is_order(from);
             bare = false;
         }
         if kept.last().is_some_and(|last| last.text == ",") {

@@ -68,6 +68,12 @@ pub fn spelled_out(tokens: Vec<Token>) -> Vec<Token> {
             found.push(word(full, &format!("{}'s", short.trim_end_matches('s'))));
         } else if token.text == "its" && token.typed == "its" && is_it_is(&tokens[index + 1..]) {
             found.push(word("it", "it's"));
+            if tokens
+                .get(index + 1)
+                .is_some_and(|next| ["done", "finished", "ready", "over"].contains(&next.text.as_str()))
+            {
+                found.push(word("is", "is"));
+            }
         } else if token.text == "youve"
             && next.is_some_and(|next| ["finished", "done"].contains(&next.text.as_str()))
         {

@@ -14,8 +14,7 @@ const AUXILIARIES: [&str; 24] = [
 /// What asks for something.
 const WISHES: [&str; 20] = [
     "want", "wants", "need", "needs", "prefer", "prefers", "rather", "require", "requires", "fancy",
-    "should", "must", "shall", "ought", "shouldnt", "mustnt", "expect", "insist", "deserves",
-    "wish",
+    "should", "must", "shall", "ought", "shouldnt", "mustnt", "expect", "insist", "deserves", "wish",
 ];
 
 /// What says no.
@@ -229,7 +228,11 @@ impl Said<'_> {
 
     /// "Thanks", "poor thing", "hello robots", "movie time": words that only greet, thank, call or head.
     fn only_calls(&self, lexicon: &Lexicon) -> bool {
-        let joins = self.words.iter().take_while(|word| ["and", "but", "or", "then"].contains(&word.as_str())).count();
+        let joins = self
+            .words
+            .iter()
+            .take_while(|word| ["and", "but", "or", "then"].contains(&word.as_str()))
+            .count();
         let mut at = joins;
         while at < self.words.len() {
             let rest: Vec<&str> = self.words[at..].iter().take(LONGEST).map(String::as_str).collect();
@@ -239,7 +242,7 @@ impl Said<'_> {
             }
         }
         let named = |at: usize| lexicon.is_small("headings", &[self.at(at)]);
-        let heading = self.sentence
+        let heading = (self.sentence || self.ends)
             && self.words.len() <= 4
             && !self.own_name
             && (1..self.words.len()).any(named)

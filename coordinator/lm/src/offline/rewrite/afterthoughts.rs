@@ -32,6 +32,9 @@ impl Rewriting<'_> {
                 self.with_it(index);
                 self.on_it_goes(index);
                 self.not_there(index);
+                self.goes_there(index);
+                self.then_it(index);
+                self.states_behind(index);
                 self.fine_for_it(index);
                 self.place_alone(index);
             }
@@ -66,8 +69,11 @@ impl Rewriting<'_> {
             self.add_to_what_was_said(index, too - joins);
             return true;
         }
-        let told =
-            (index..too).any(|at| self.lexicon.adjective(&[self.at(at)]).is_some() || self.is_place(at) || ["down", "up", "on", "off"].contains(&self.at(at)));
+        let told = (index..too).any(|at| {
+            self.lexicon.adjective(&[self.at(at)]).is_some()
+                || self.is_place(at)
+                || ["down", "up", "on", "off"].contains(&self.at(at))
+        });
         if told && too - index <= LONGEST_ASIDE && !self.is_order(index) {
             self.say(too, end, &[]);
         }
@@ -152,11 +158,17 @@ impl Rewriting<'_> {
 
     /// "the bed is fine for it": it goes there.
     fn fine_for_it(&mut self, index: usize) {
-        const FINE: [&str; 9] = ["fine", "good", "ok", "okay", "perfect", "best", "great", "better", "enough"];
+        const FINE: [&str; 9] =
+            ["fine", "good", "ok", "okay", "perfect", "best", "great", "better", "enough"];
         let end = self.next_mark(index, &[",", "."]);
         let Some(is) = (index + 1..end).find(|&at| self.at(at) == "is") else { return };
         let it = ["it", "them", "that"].contains(&self.at(is + 3));
-        if self.names_only(index, is) && FINE.contains(&self.at(is + 1)) && self.at(is + 2) == "for" && it && is + 4 == end {
+        if self.names_only(index, is)
+            && FINE.contains(&self.at(is + 1))
+            && self.at(is + 2) == "for"
+            && it
+            && is + 4 == end
+        {
             let mut order = vec!["put".to_owned(), self.at(is + 3).to_owned(), "to".to_owned()];
             if !is_determiner(self.at(index)) {
                 order.push("the".to_owned());
@@ -176,6 +188,79 @@ impl Rewriting<'_> {
             index > 0 && self.at(index - 1) == "." && (end >= self.tokens.len() || self.at(end) == ".");
         if alone && there && noun > 0 && thing + noun == end {
             self.say(index, index, &["put", "it"]);
+        }
+    }
+
+    /// "pen and pencil in there": they go there.
+    fn goes_there(&mut self, index: usize) {
+        let end = self.next_mark(index, &[",", "."]);
+        let joins = (index..end).take_while(|&at| ["and", "then"].contains(&self.at(at))).count();
+        let there = end.saturating_sub(1);
+        let inward = usize::from(["in", "on"].contains(&self.at(there.wrapping_sub(1))));
+        let things = there.saturating_sub(inward);
+        let before = self.clause_start(index.saturating_sub(1));
+        let placed = (before..index).any(|at| self.is_place(at));
+        if placed
+            && self.at(there) == "there"
+            && things > index + joins
+            && self.names_only(index + joins, things)
+            && !self.is_order(index + joins)
+        {
+            self.say(things, things, &["should", "go"]);
+        }
+    }
+
+    /// "and the phone, put it in the drawer", "as for the pot, it goes …": the phone, the pot.
+    fn then_it(&mut self, index: usize) {
+        let end = self.next_mark(index, &[",", "."]);
+        let about = self.starts(index, &["as", "for"]);
+        let joins = if about {
+            2
+        } else {
+            (index..end).take_while(|&at| ["and", "but"].contains(&self.at(at))).count()
+        };
+        let start = index + joins;
+        let from = (start..end).find(|&at| ["from", "in", "on"].contains(&self.at(at)));
+        let things = from.filter(|&from| self.names_only(start, from)).unwrap_or(end);
+        let close = self.next_mark(end + 1, &[",", "."]);
+        let it = (end + 1..close.min(end + 4)).find(|&at| {
+            ["it", "that", "them"].contains(&self.at(at)) && self.lexicon.noun(&[self.at(at + 1)]).is_none()
+        });
+        let ordered =
+            self.is_order(end + 1) && it.is_some_and(|it| it > end + 1) || about && it == Some(end + 1);
+        let named = joins > 0
+            && self.at(end) == ","
+            && is_determiner(self.at(start))
+            && self.names_only(start, things);
+        if let (true, true, Some(it)) = (ordered, named, it) {
+            let said = self.words(start..things);
+            self.say_all(it, it + 1, &said);
+            self.say(index, end + 1, &[]);
+            if index > 0 && self.at(index - 1) == "," {
+                self.say(index - 1, index, &["."]);
+            }
+        }
+    }
+
+    /// "give me the apple, cold and clean": the cold and clean apple.
+    fn states_behind(&mut self, index: usize) {
+        const ASKED: [&str; 8] = ["give", "bring", "get", "hand", "fetch", "want", "need", "like"];
+        let end = self.next_mark(index, &[",", "."]);
+        let state = |at: usize| {
+            self.at(at) == "and" && at > index
+                || self.lexicon.adjective(&[self.at(at)]).is_some_and(|state| !state.selects)
+        };
+        let noun = self.noun_before(index.saturating_sub(1)).map_or(0, |noun| noun.len());
+        if index < 3 || noun == 0 || end == index || !(index..end).all(state) || self.at(index - 1) != "," {
+            return;
+        }
+        let first = index - 1 - noun;
+        let before = self.clause_start(index - 1);
+        let asked = (before..before + 3).any(|at| ASKED.contains(&self.at(at)));
+        if asked && first > before && is_determiner(self.at(first - 1)) {
+            let states = self.words(index..end);
+            self.say(index - 1, end, &[]);
+            self.say_all(first, first, &states);
         }
     }
 }

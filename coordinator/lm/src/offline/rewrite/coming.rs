@@ -7,16 +7,35 @@ use crate::offline::syntax::is_determiner;
 impl Rewriting<'_> {
     /// All of them.
     pub(super) fn comings(&mut self) {
+        self.the_thing();
         let mut index = 0;
         while index < self.tokens.len() {
             self.comes_from(index);
             self.ends_up(index);
             self.put_in_between(index);
             self.that_same(index);
+            self.before_that(index);
+            self.left_of(index);
             self.plated(index);
             self.out_and_into(index);
             self.all_of_them(index);
             self.filled_at(index);
+            index += 1;
+        }
+    }
+
+    /// "fill it at the coffee maker, turn the thing off": what was named last.
+    fn the_thing(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let switched = ["turn", "switch", "shut"].contains(&self.at(index - 1))
+                && ["on", "off"].contains(&self.at(index + 2));
+            if self.starts(index, &["the", "thing"]) && switched {
+                let named = (2..index).rev().find_map(|end| self.noun_before(end));
+                if let Some(named) = named {
+                    self.say_all(index + 1, index + 2, &named);
+                }
+            }
             index += 1;
         }
     }
@@ -98,6 +117,69 @@ impl Rewriting<'_> {
         }
     }
 
+    /// "wash them before they're stacked in the cabinet": then put them there.
+    fn before_that(&mut self, index: usize) {
+        let (who, being) = match (self.at(index + 1), self.at(index + 2)) {
+            ("theyre", _) => ("them", 2),
+            ("they", "are") => ("them", 3),
+            ("it", "is") => ("it", 3),
+            _ => return,
+        };
+        let put = ["put", "placed", "stacked", "stored", "returned", "stowed", "laid", "set"]
+            .contains(&self.at(index + being));
+        if self.at(index) == "before" && put && self.is_place(index + being + 1) && index > 2 {
+            self.say(index, index + being + 1, &[",", "then", "put", who]);
+        }
+    }
+
+    /// "whatever's left of the lettuce": the lettuce; "a good wash": a wash; "out on the counter": on it.
+    fn left_of(&mut self, index: usize) {
+        let is = usize::from(["is", crate::offline::text::POSSESSIVE].contains(&self.at(index + 1)));
+        if ["whatever", "what"].contains(&self.at(index)) && self.starts(index + 1 + is, &["left", "of"]) {
+            self.say(index, index + 3 + is, &[]);
+        }
+        let good = ["good", "quick", "proper", "thorough", "nice"].contains(&self.at(index + 2));
+        if ["wants", "want", "needs", "need"].contains(&self.at(index))
+            && self.at(index + 1) == "a"
+            && good
+            && self.is_base_verb(index + 3)
+        {
+            self.say(index + 2, index + 3, &[]);
+        }
+        let start = self.clause_start(index);
+        let out = self.at(index) == "out"
+            && ["on", "in"].contains(&self.at(index + 1))
+            && is_determiner(self.at(index + 2));
+        if out
+            && index > start
+            && self.names_only(start, index)
+            && self.lexicon.noun(&[self.at(start)]).is_some()
+        {
+            self.say(index, index + 1, &[]);
+        }
+        let opens = index == start || self.at(index - 1) == "and";
+        if opens && self.at(index) == "door" && ["shut", "closed"].contains(&self.at(index + 1)) && index > 0
+        {
+            self.say(index, index + 2, &["shut", "the", "door"]);
+        }
+        // "the vase would look nicer on the table": it should be there.
+        let looks = match (self.at(index), self.at(index + 1), self.at(index + 2)) {
+            ("would", "look", _) => 2,
+            ("would", "please", "me") => 3,
+            ("looks" | "look", _, _) => 1,
+            _ => return,
+        };
+        let more = (index + looks..)
+            .take_while(|&at| {
+                ["much", "more", "far", "so", "a", "lot", "better", "nicer", "best", "prettier"]
+                    .contains(&self.at(at))
+            })
+            .count();
+        if more > 0 && self.is_place(index + looks + more) && self.noun_before(index).is_some() {
+            self.say(index, index + looks + more, &["should", "be"]);
+        }
+    }
+
     /// "on the side table; … on that same table": on the side table.
     fn that_same(&mut self, index: usize) {
         let same = is_determiner(self.at(index)) && self.at(index + 1) == "same";
@@ -140,13 +222,16 @@ impl Rewriting<'_> {
             ("off", _) => 1,
             _ => return,
         };
-        let joins = (index + from + 1..index + from + 6).find(|&at| self.at(at) == "and" && self.noun_before(at).is_some());
+        let joins = (index + from + 1..index + from + 6)
+            .find(|&at| self.at(at) == "and" && self.noun_before(at).is_some());
         let onto = joins.is_some_and(|and| ["onto", "into", "to", "on", "in"].contains(&self.at(and + 1)));
-        if let Some(and) = joins.filter(|_| onto && index > start && self.names_only(start, index) && !self.is_order(start)) {
+        if let Some(and) =
+            joins.filter(|_| onto && index > start && self.names_only(start, index) && !self.is_order(start))
+        {
             let end = self.next_mark(and, &[",", "."]);
             let plain = !(and..end).any(|at| self.at(at) == "with");
             if plain {
-                self.say(index, and + 1, &["should", "be"]);
+                self.say(index, and + 1, &["goes"]);
             }
         }
     }
@@ -164,7 +249,10 @@ impl Rewriting<'_> {
         let state = usize::from(self.lexicon.adjective(&[self.at(index + 2)]).is_some());
         let things = ["things", "items", "objects", "ones"].contains(&self.at(index + 2 + state));
         let pair = self.at(index + 1) == "pair" && (self.is_mark(index + 2) || is_going(self.at(index + 2)));
-        if things && (is_going(self.at(index + 3 + state)) || ["then", "should"].contains(&self.at(index + 3 + state))) {
+        if things
+            && (is_going(self.at(index + 3 + state))
+                || ["then", "should"].contains(&self.at(index + 3 + state)))
+        {
             self.say(index, index + 3 + state, &["both", "of", "them"]);
         } else if pair {
             self.say(index, index + 2, &["both", "of", "them"]);
@@ -193,6 +281,14 @@ impl Rewriting<'_> {
         });
         if let (Some(liquid), Some(end)) = (liquid, end) {
             self.say(index, end, &["with", liquid]);
+            // "… and the cup filled with water"
+            let joins = (start..index).take_while(|&at| ["and", "then"].contains(&self.at(at))).count();
+            let filled = index - 1;
+            if self.at(filled) == "filled" && self.names_only(start + joins, filled) {
+                let mut order = vec!["fill".to_owned()];
+                order.extend(self.words(start + joins..filled));
+                self.say_all(start + joins, index, &order);
+            }
         }
     }
 }
