@@ -15,6 +15,7 @@ mod lexicon;
 mod literal;
 mod mention;
 mod phrase;
+mod plain;
 mod remark;
 mod rewrite;
 mod scene;
@@ -44,6 +45,7 @@ use literal::{
     others_concrete, says_state, says_where, tells_of_going,
 };
 use mention::{Discourse, Spoken};
+use plain::{Plain, plain};
 use scene::Scene;
 pub use sense::{Clues, LooseNoun};
 use snapshot::Snapshot;
@@ -218,63 +220,6 @@ impl Reading {
         let all = std::iter::once(decomposition).chain(others);
         let readings = all.filter(|reading| !reading.subtasks.is_empty()).take(3).collect();
         Answer::Clarify(Clarification { question, understood, not_understood: problems, readings })
-    }
-}
-
-/// An instruction in plainer words.
-struct Plain {
-    words: Vec<String>,
-    /// What was taken for a slip of the pen, in words.
-    repairs: Vec<String>,
-    /// The same with things named that pronouns stand for, and with the remarks, if there are any.
-    others: Vec<Vec<String>>,
-    /// What was taken for remarks.
-    remarks: Vec<String>,
-    /// Mended words as they were typed, and as they are read.
-    typed: Vec<(String, String)>,
-    /// Where the instruction was cut off for its length.
-    cut: usize,
-}
-
-fn plain(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Plain {
-    let cut = instruction
-        .char_indices()
-        .map(|(at, _)| at)
-        .find(|&at| at >= text::LONGEST_INSTRUCTION)
-        .unwrap_or(instruction.len());
-    let tokens = slang::spelled_out(text::without_list_numbers(text::tokens(&instruction[..cut])));
-    let mut tokens = text::split_articles(tokens, lexicon, scene);
-    let repairs = text::repair_spelling(&mut tokens, lexicon, scene);
-    let typed: Vec<(String, String)> = tokens
-        .iter()
-        .filter(|token| repairs.contains(&text::repair_note(token)))
-        .map(|token| (token.typed.clone(), token.text.clone()))
-        .collect();
-    let (left, remarks) = remark::set_apart(&tokens, lexicon, scene);
-    if std::env::var_os("LMDBG").is_some() {
-        let show =
-            |tokens: &[text::Token]| tokens.iter().map(|t| t.text.clone()).collect::<Vec<_>>().join(" ");
-        eprintln!(
-            "DBG left: {}\nDBG remarks: {remarks:?}\nDBG told: {}",
-            show(&left),
-            show(&remark::told_apart(&left, lexicon, scene))
-        );
-        eprintln!("DBG plain: {}", show(&rewrite::rewritten(left.clone(), lexicon)));
-    }
-    let plainer = |tokens| {
-        let tokens = rewrite::rewritten(tokens, lexicon);
-        text::without_asides(tokens.into_iter().map(|token| token.text).collect(), lexicon)
-    };
-    let named = remark::told_apart(&left, lexicon, scene);
-    let named = (named != left).then(|| plainer(named));
-    let whole = (!remarks.is_empty()).then(|| plainer(tokens));
-    Plain {
-        words: plainer(left),
-        others: named.into_iter().chain(whole).collect(),
-        repairs,
-        remarks,
-        typed,
-        cut,
     }
 }
 

@@ -200,6 +200,14 @@ impl Remarks<'_> {
         (from..self.tokens.len()).map(named).collect()
     }
 
+    /// How many tokens at the start of a part name a person: the cleaner is no bottle.
+    fn persons(&self, part: Part) -> usize {
+        let words: Vec<String> = (part.from..part.to).map(|at| self.at(at).to_owned()).collect();
+        let determined = words.first().is_some_and(|word| is_determiner(word));
+        let length = telling::person(&words, &[], self.lexicon).filter(|_| determined);
+        length.unwrap_or(0)
+    }
+
     /// Whether a part only tells something, or only calls or greets somebody.
     fn is_remark(&self, part: Part) -> bool {
         let words = telling::spelled_out(&self.tokens[part.from..part.to]);
@@ -207,7 +215,7 @@ impl Remarks<'_> {
             words: &words,
             named: self.named_persons(part.from),
             thing: self.names_a_thing(part),
-            own_name: (part.from..part.to).any(|at| self.own_name(at)),
+            own_name: (part.from + self.persons(part)..part.to).any(|at| self.own_name(at)),
             colon: self.typed(part.to) == ":",
             sentence: part.from == 0 || self.at(part.from - 1) == ".",
             ends: self.at(part.to) != ",",
@@ -258,7 +266,10 @@ impl Remarks<'_> {
         let own = if said > 1 { &["later", "myself", "ourselves"][..] } else { &["later"] };
         let later = words.iter().any(|word| own.contains(&word.as_str()));
         // "open the blinds, it is like a cave in here": why.
-        let explains = at > 0 && orders[at - 1] && self.typed(parts[at - 1].to) == ",";
+        let explains = at > 0
+            && said > 0
+            && (orders[at - 1] || self.is_order(parts[at - 1].from + 1))
+            && self.typed(parts[at - 1].to) == ",";
         // "it feels so gloomy in here, brighten things up": what is asked for is said.
         let asked = parts.get(at + 1).is_some_and(|next| {
             let words: Vec<String> = (next.from..next.to).map(|at| self.at(at).to_owned()).collect();

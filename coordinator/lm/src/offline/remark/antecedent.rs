@@ -87,7 +87,7 @@ impl Remarks<'_> {
             return Some(part);
         }
         let said: Vec<&str> = words.iter().map(String::as_str).collect();
-        let asks = SPOKEN_OF.iter().any(|spoken| said.starts_with(spoken));
+        let asks = SPOKEN_OF.iter().any(|spoken| said.starts_with(spoken)) || self.at(part.to) == "." && said[0] == "where";
         let start = (part.from..part.to).find(|&at| self.thing(at).is_some())?;
         let from = (part.from..start).rev().find(|&at| is_determiner(self.at(at)))?;
         if start - from > 3 {

@@ -99,6 +99,9 @@ pub(super) fn spelled_out(tokens: &[Token]) -> Vec<String> {
             "theyre" => &["they", "are"],
             "theyve" => &["they", "have"],
             "theyll" => &["they", "will"],
+            "thatll" => &["that", "will"],
+            "itll" => &["it", "will"],
+            "therell" => &["there", "will"],
             "youre" => &["you", "are"],
             "youve" => &["you", "have"],
             "youll" => &["you", "will"],
@@ -204,7 +207,7 @@ impl Said<'_> {
             "you" => joined && self.says_when_you_are_done(start),
             "it" | "that" | "this" | "there" | "they" | "these" | "those" => {
                 let when = joined && !["because", "since", "as", "so"].contains(&self.at(0));
-                !when && self.is_of_a_thing(start)
+                !when && self.is_of_a_thing(start, lexicon)
             }
             _ => self.is_of_somebody(start, joined, lexicon) || self.is_of_something_else(start, lexicon),
         }
@@ -277,38 +280,24 @@ impl Said<'_> {
     }
 
     /// "it's a hot day", "that's it", "there's space": of no thing that is named, nor what shall be.
-    fn is_of_a_thing(&self, start: usize) -> bool {
-        let verb = self.at(start + 1);
-        let tells = [
-            "is",
-            "are",
-            "was",
-            "were",
-            "has",
-            "have",
-            "looks",
-            "look",
-            "feels",
-            "smells",
-            "makes",
-            "seems",
-            "distract",
-            "distracts",
-            "hurts",
-            "helps",
-            "bothers",
-            "stinks",
-            "takes",
-            "saves",
-            "works",
-        ]
-        .contains(&verb);
-        let perfect = ["has", "have", "is"].contains(&verb) && self.at(start + 2) == "been";
-        tells
+    fn is_of_a_thing(&self, start: usize, lexicon: &Lexicon) -> bool {
+        const TELLS: [&str; 12] =
+            ["is", "are", "was", "were", "has", "have", "look", "distract", "hurt", "bother", "stink", "smell"];
+        const ASKS: [&str; 9] =
+            ["needs", "gets", "wants", "contains", "holds", "receives", "requires", "ends", "does"];
+        let (verb, next) = (self.at(start + 1), self.at(start + 2));
+        // "that is how I like it", "that will do"
+        let says_how = ["is", "was"].contains(&verb) && ["how", "what", "why", "where", "when"].contains(&next)
+            || verb == "will" && ["do", "be"].contains(&next);
+        if says_how && !self.thing && !self.has(start, &["should", "must", "shall"]) {
+            return true;
+        }
+        let does = self.third_person(start + 1, lexicon) && !super::is_placed(verb) && !ASKS.contains(&verb);
+        let perfect = ["has", "have", "is"].contains(&verb) && next == "been";
+        (TELLS.contains(&verb) || does)
             && (!self.thing || perfect)
             && !self.wishes(start)
-            && !self.has(start, &["to"])
-            && !self.has(start, &["you", "if"])
+            && !self.has(start, &["to", "you", "if"])
     }
 
     /// "my doctor says more veg", "I'm packing", "nobody is watching".
