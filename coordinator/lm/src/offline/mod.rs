@@ -402,6 +402,7 @@ fn one_clause<'a>(
         && remark
         && !interpreter.spoke
         && !names
+        && !clause.says_any(&["want", "need", "like", "love", "prefer", "should", "must", "fancy"])
         && others_concrete(index, clauses, lexicon, interpreter.discourse.scene) > 0
     {
         before.restore(interpreter);

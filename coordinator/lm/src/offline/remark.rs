@@ -19,7 +19,8 @@ mod wishes;
 const SAID_ALL: usize = 3;
 
 /// What joins a reason or a time to what is ordered.
-const SUBORDINATORS: [&str; 12] = [
+const SUBORDINATORS: [&str; 13] = [
+    "where",
     "because",
     "since",
     "as",
@@ -54,6 +55,7 @@ struct Remarks<'a> {
 /// An instruction without its remarks, and the remarks.
 pub fn set_apart(tokens: &[Token], lexicon: &Lexicon, scene: &Scene<'_>) -> (Vec<Token>, Vec<String>) {
     let mut text = Remarks { tokens: tokens.to_vec(), lexicon, scene };
+    text.say_what_others_say();
     text.wish_for_others();
     let parts = text.parts();
     let telling: Vec<bool> = parts.iter().map(|part| text.is_remark(*part)).collect();

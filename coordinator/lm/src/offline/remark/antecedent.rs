@@ -87,7 +87,10 @@ impl Remarks<'_> {
             return Some(part);
         }
         let said: Vec<&str> = words.iter().map(String::as_str).collect();
-        let asks = SPOKEN_OF.iter().any(|spoken| said.starts_with(spoken)) || self.at(part.to) == "." && said[0] == "where";
+        let person = telling::person(&words, &[], self.lexicon).is_some() || said[0] == "whoever";
+        let wished = ["want", "wants", "need", "needs", "like", "love", "should", "must", "will", "prefer"];
+        let someone = person && !words.iter().any(|word| wished.contains(&word.as_str()));
+        let asks = someone || SPOKEN_OF.iter().any(|spoken| said.starts_with(spoken)) || self.at(part.to) == "." && said[0] == "where";
         let start = (part.from..part.to).find(|&at| self.thing(at).is_some())?;
         let from = (part.from..start).rev().find(|&at| is_determiner(self.at(at)))?;
         if start - from > 3 {

@@ -21,7 +21,7 @@ const WISHES: [&str; 20] = [
 const DENIALS: [&str; 6] = ["dont", "doesnt", "not", "never", "didnt", "wont"];
 
 /// What may stand before what is told.
-const JOINS: [&str; 19] = [
+const JOINS: [&str; 20] = [
     "and",
     "but",
     "so",
@@ -41,6 +41,7 @@ const JOINS: [&str; 19] = [
     "till",
     "whenever",
     "though",
+    "where",
 ];
 
 /// Somebody, by no name.
@@ -186,6 +187,12 @@ impl Said<'_> {
         self.words.iter().skip(from).any(|word| any.contains(&word.as_str()))
     }
 
+    /// How many words join it to what is said before: "that" in "that is how I like it" does not.
+    fn joins(&self) -> usize {
+        let that = |at: usize| self.at(at) == "that" && AUXILIARIES.contains(&self.at(at + 1));
+        (0..self.words.len()).take_while(|&at| JOINS.contains(&self.at(at)) && !that(at)).count()
+    }
+
     /// Whether something is wished for, from a place on.
     fn wishes(&self, from: usize) -> bool {
         let wisher = ["would", "i", "we", "he", "she", "they", "really", "also", "d"];
@@ -199,7 +206,7 @@ impl Said<'_> {
         if self.only_calls(lexicon) {
             return true;
         }
-        let joins = self.words.iter().take_while(|word| JOINS.contains(&word.as_str())).count();
+        let joins = self.joins();
         let joined = (0..joins).any(|at| !["and", "but", "then", "or", "that", "so"].contains(&self.at(at)))
             || self.at(0) == "so" && self.at(1) == "that";
         let start = joins + self.fillers(joins, lexicon);
@@ -215,7 +222,7 @@ impl Said<'_> {
 
     /// "do whatever needs doing", "see what you can do": an order that leaves open what to do, and names nothing.
     pub(super) fn is_vague(&self, lexicon: &Lexicon) -> bool {
-        let start = self.words.iter().take_while(|word| JOINS.contains(&word.as_str())).count();
+        let start = self.joins();
         let start = start + self.fillers(start, lexicon);
         let opens = |from: usize| {
             let rest: Vec<&str> = self.words.iter().skip(from).take(LONGEST).map(String::as_str).collect();
@@ -285,6 +292,8 @@ impl Said<'_> {
             ["is", "are", "was", "were", "has", "have", "look", "distract", "hurt", "bother", "stink", "smell"];
         const ASKS: [&str; 9] =
             ["needs", "gets", "wants", "contains", "holds", "receives", "requires", "ends", "does"];
+        const ADVERBS: [&str; 8] = ["never", "always", "just", "still", "really", "only", "also", "already"];
+        let start = start + usize::from(ADVERBS.contains(&self.at(start + 1)));
         let (verb, next) = (self.at(start + 1), self.at(start + 2));
         // "that is how I like it", "that will do"
         let says_how = ["is", "was"].contains(&verb) && ["how", "what", "why", "where", "when"].contains(&next)
@@ -318,7 +327,8 @@ impl Said<'_> {
             ["somebody", "someone", "anybody", "anyone", "everyone", "everybody"].contains(&self.at(start));
         let order = anybody && !AUXILIARIES.contains(&self.at(verb)) && !self.is_past(verb, lexicon)
             || anybody && ["can", "could", "will"].contains(&self.at(verb));
-        if !told || asked || order || wished && (speaker || self.own_name) {
+        let needless = !speaker && negated && self.has(verb, &["need"]);
+        if !told || asked || order || wished && !needless && (speaker || self.own_name) {
             return false;
         }
         // "my brother left his laptop on the table": it is told of what is to be brought.
@@ -328,6 +338,7 @@ impl Said<'_> {
                 .contains(&self.at(verb))
             && self.has(verb, &["it", "they", "theyre", "its", "he", "she"]);
         let later = thinks
+            || needless
             || speaker && (self.at(verb) == "will" || self.at(verb) == "am" || self.at(verb) == "are")
             || self.has(verb, &["myself", "ourselves", "later", "tomorrow", "already", "again"]) && speaker;
         !self.own_name || later || joined

@@ -163,6 +163,11 @@ impl Rewriting<'_> {
         let end = self.next_mark(index, &[",", "."]);
         let Some(is) = (index + 1..end).find(|&at| self.at(at) == "is") else { return };
         let it = ["it", "them", "that"].contains(&self.at(is + 3));
+        // "the fork is fine where it is"
+        if FINE.contains(&self.at(is + 1)) && ["where", "as"].contains(&self.at(is + 2)) && self.at(is + 3) == "it" {
+            self.say(is, end, &["stays"]);
+            return;
+        }
         if self.names_only(index, is)
             && FINE.contains(&self.at(is + 1))
             && self.at(is + 2) == "for"
