@@ -161,7 +161,8 @@ pub fn notes_a_state(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
         && clause.objects.iter().all(is_here)
         && clause.places.is_empty()
         && clause.unknown.is_empty()
-        && !clause.complement.is_empty()
+        && (!clause.complement.is_empty()
+            || clause.words.last().is_some_and(|word| ["out", "on", "off"].contains(&word.as_str())))
         && clause.complement.keys().all(|property| shuts.contains(&property.as_str()))
 }
 

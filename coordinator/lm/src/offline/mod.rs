@@ -352,6 +352,9 @@ fn one_clause<'a>(
     // "I would like the soup ladle to be washed": a wish that goes on.
     let goes_on =
         clauses.get(index + 1).is_some_and(|next| next.words.starts_with(&["to".into(), "be".into()]));
+    if std::env::var_os("LMDBG").is_some() {
+        eprintln!("DBG clause {clause:?}");
+    }
     // "close the fridge, toaster off, lights out": no more than it says.
     let noted = notes_a_state(clause, interpreter.discourse.scene)
         && others_concrete(index, clauses, lexicon, interpreter.discourse.scene) > 1;

@@ -182,7 +182,11 @@ impl Remarks<'_> {
 
     /// Whether a part says what to do, as far as its words tell: it names a thing of the scene.
     fn orders(&self, part: Part) -> bool {
-        self.names_a_thing(part)
+        let joins = (part.from..part.to)
+            .take_while(|&at| ["and", "then", "but", "so", "please", "just", "also"].contains(&self.at(at)))
+            .count();
+        let spoken_of = (part.from..part.to).any(|at| ["it", "them", "both"].contains(&self.at(at)));
+        self.names_a_thing(part) || spoken_of && self.is_order(part.from + joins)
     }
 
     /// Which of the words from a place on are names of persons: written large, and no word that is known.
@@ -225,17 +229,12 @@ impl Remarks<'_> {
         said.is_remark(self.lexicon) || said.is_vague(self.lexicon) || said.colon && self.heads(part)
     }
 
-    /// "Let's clear the table.", "I need a coffee.": what is done by what is said behind it.
+    /// "Let's clear the table.": what is done by what is said behind it.
     fn announces(&self, part: Part) -> bool {
         let opens = part.from == 0 && part.to - part.from <= 6;
-        let ends = self.at(part.to) == ".";
         let clears = ["clear", "tidy", "clean", "sort"].contains(&self.at(part.from + 1))
             && self.at(part.from) == "let";
-        let wish = ["i", "id", "we"].contains(&self.at(part.from))
-            && (part.from + 1..part.from + 3)
-                .any(|at| ["need", "want", "love", "fancy"].contains(&self.at(at)))
-            && !(part.from..part.to).any(|at| self.own_name(at) || self.is_order(at) && at > part.from + 2);
-        opens && (clears || ends && wish)
+        opens && clears
     }
 
     /// "Closing up the kitchen now:", "get the soup going:": a heading of what is said behind it.
@@ -291,7 +290,7 @@ impl Remarks<'_> {
     fn without(self, parts: &[Part], left_out: &[bool]) -> (Vec<Token>, Vec<String>) {
         let mut kept: Vec<Token> = Vec::with_capacity(self.tokens.len());
         let mut remarks = Vec::new();
-        let (mut bare, mut asks) = (false, false);
+        let (mut bare, mut asks, mut why) = (false, false, false);
         for (part, left_out) in parts.iter().zip(left_out) {
             let mark = self.tokens.get(part.to).filter(|_| self.is_mark(part.to));
             if *left_out {
@@ -311,11 +310,14 @@ impl Remarks<'_> {
                     _ => {}
                 }
                 asks = false;
+                why = true;
                 bare = kept.last().is_none_or(|last| last.text == ".");
                 continue;
             }
             // "Grandma is coming, so wash the cup": wash it.
-            let from = part.from + usize::from(bare && ["so", "and", "but"].contains(&self.at(part.from)));
+            let joins = bare && ["and", "but"].contains(&self.at(part.from));
+            let from = part.from + usize::from(joins || (why || bare) && self.at(part.from) == "so");
+            why = false;
             kept.extend_from_slice(&self.tokens[from..part.to]);
             kept.extend(mark.cloned());
             asks = part.to < from + 4 && !self.names_a_thing(*part) && !self.is_order(from);

@@ -74,6 +74,9 @@ pub fn spelled_out(tokens: Vec<Token>) -> Vec<Token> {
             {
                 found.push(word("is", "is"));
             }
+        } else if token.text == "it" && token.typed.len() > 2 && next.is_some_and(|next| next.text == "done")
+        {
+            found.extend([token.clone(), word("is", "is")]);
         } else if token.text == "youve"
             && next.is_some_and(|next| ["finished", "done"].contains(&next.text.as_str()))
         {

@@ -63,6 +63,7 @@ impl<'a> Parser<'a> {
         };
         let wanted = previous.verbs.iter().filter_map(|verb| verb.wants.as_deref());
         let mut special = wanted.filter(|wants| SPECIAL.contains(wants)).peekable();
-        special.peek().is_none() || special.any(|wants| clause.objects.iter().any(|phrase| fits(phrase, wants)))
+        special.peek().is_none()
+            || special.any(|wants| clause.objects.iter().any(|phrase| fits(phrase, wants)))
     }
 }

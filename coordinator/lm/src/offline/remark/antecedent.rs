@@ -8,7 +8,8 @@ use super::{Part, Remarks, telling};
 const PRONOUNS: [&str; 8] = ["it", "them", "that", "those", "these", "they", "both", "this"];
 
 /// What asks or tells where something is, and that it is there.
-const SPOKEN_OF: [&[&str]; 16] = [
+const SPOKEN_OF: [&[&str]; 17] = [
+    &["my", "turn"],
     &["where", "is"],
     &["where", "are"],
     &["why", "is", "there"],
@@ -90,7 +91,9 @@ impl Remarks<'_> {
         let person = telling::person(&words, &[], self.lexicon).is_some() || said[0] == "whoever";
         let wished = ["want", "wants", "need", "needs", "like", "love", "should", "must", "will", "prefer"];
         let someone = person && !words.iter().any(|word| wished.contains(&word.as_str()));
-        let asks = someone || SPOKEN_OF.iter().any(|spoken| said.starts_with(spoken)) || self.at(part.to) == "." && said[0] == "where";
+        let asks = someone
+            || SPOKEN_OF.iter().any(|spoken| said.starts_with(spoken))
+            || self.at(part.to) == "." && said[0] == "where";
         let start = (part.from..part.to).find(|&at| self.thing(at).is_some())?;
         let from = (part.from..start).rev().find(|&at| is_determiner(self.at(at)))?;
         if start - from > 3 {

@@ -160,7 +160,7 @@ pub(super) fn tells_of_a_thing(words: &[String], lexicon: &Lexicon) -> bool {
     let has = |any: &[&str]| words.iter().any(|word| any.contains(&word.as_str()));
     let going = super::is_placed(first);
     let be = first == POSSESSIVE || ["is", "are", "was", "were", "has", "have"].contains(&first.as_str());
-    let verb = first.ends_with('s') && !first.ends_with("ss")
+    let verb = first.ends_with('s') && !first.ends_with("ss") && first.len() > 3
         || ["stink", "smell", "look", "creep", "annoy", "bother", "scare"].contains(&first.as_str());
     !has(&WISHES)
         && !has(&["to", "be", "nicer", "better", "gets", "takes", "can", "not"])
@@ -288,15 +288,17 @@ impl Said<'_> {
 
     /// "it's a hot day", "that's it", "there's space": of no thing that is named, nor what shall be.
     fn is_of_a_thing(&self, start: usize, lexicon: &Lexicon) -> bool {
-        const TELLS: [&str; 12] =
-            ["is", "are", "was", "were", "has", "have", "look", "distract", "hurt", "bother", "stink", "smell"];
+        const TELLS: [&str; 12] = [
+            "is", "are", "was", "were", "has", "have", "look", "distract", "hurt", "bother", "stink", "smell",
+        ];
         const ASKS: [&str; 9] =
             ["needs", "gets", "wants", "contains", "holds", "receives", "requires", "ends", "does"];
         const ADVERBS: [&str; 8] = ["never", "always", "just", "still", "really", "only", "also", "already"];
         let start = start + usize::from(ADVERBS.contains(&self.at(start + 1)));
         let (verb, next) = (self.at(start + 1), self.at(start + 2));
         // "that is how I like it", "that will do"
-        let says_how = ["is", "was"].contains(&verb) && ["how", "what", "why", "where", "when"].contains(&next)
+        let says_how = ["is", "was"].contains(&verb)
+            && ["how", "what", "why", "where", "when"].contains(&next)
             || verb == "will" && ["do", "be"].contains(&next);
         if says_how && !self.thing && !self.has(start, &["should", "must", "shall"]) {
             return true;

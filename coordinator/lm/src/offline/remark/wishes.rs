@@ -23,17 +23,21 @@ impl Remarks<'_> {
             ["says", "said", "thinks", "insists", "reckons", "suggests", "suggested", "insisted", "asked"];
         let mut index = 0;
         while index < self.tokens.len() {
-            let opens = index == 0 || self.is_mark(index - 1) || ["and", "so", "but"].contains(&self.at(index - 1));
-            let words: Vec<String> = self.tokens[index..].iter().take(6).map(|token| token.text.clone()).collect();
+            let opens =
+                index == 0 || self.is_mark(index - 1) || ["and", "so", "but"].contains(&self.at(index - 1));
+            let words: Vec<String> =
+                self.tokens[index..].iter().take(6).map(|token| token.text.clone()).collect();
             let person = telling::person(&words, &self.named_persons(index), self.lexicon).filter(|_| opens);
             if let Some(length) = person
                 && SAYS.contains(&self.at(index + length))
             {
                 let that = usize::from(self.at(index + length + 1) == "that");
                 let first = index + length + 1 + that;
-                let end = (first..self.tokens.len()).find(|&at| self.is_mark(at)).unwrap_or(self.tokens.len());
+                let end =
+                    (first..self.tokens.len()).find(|&at| self.is_mark(at)).unwrap_or(self.tokens.len());
                 let asks = (first + 1..end).any(|at| {
-                    ["should", "must", "shall", "goes", "go", "belongs", "belong", "needs", "has"].contains(&self.at(at))
+                    ["should", "must", "shall", "goes", "go", "belongs", "belong", "needs", "has"]
+                        .contains(&self.at(at))
                 });
                 if asks && (first..end).any(|at| self.thing(at).is_some()) {
                     self.tokens.drain(index..first);

@@ -32,6 +32,7 @@ impl Rewriting<'_> {
                 self.with_it(index);
                 self.on_it_goes(index);
                 self.not_there(index);
+                self.lights_out(index);
                 self.goes_there(index);
                 self.then_it(index);
                 self.states_behind(index);
@@ -128,9 +129,12 @@ impl Rewriting<'_> {
         let thing = start + 1 + usize::from(is_determiner(self.at(start + 1)));
         let noun = self.noun_before(end).map_or(0, |noun| noun.len());
         let before = self.clause_start(index.saturating_sub(1));
-        let ordered = index > 1 && self.is_order(before) && !(before..index).any(|at| self.is_place(at));
-        let it = ["it", "them"].into_iter().find(|it| (before..index).any(|at| self.at(at) == *it));
-        if let (true, Some(it)) = (ordered && self.at(start.wrapping_sub(1)) == "then", it)
+        let placed = (before..index).any(|at| self.is_place(at));
+        let ordered = index > 1 && self.is_order(before) && !(placed && self.says_to_put_or_take(before));
+        let said = |it: &str| (before..index).any(|at| self.at(at) == it);
+        let it = if said("them") || said("and") && !said("it") { "them" } else { "it" };
+        if ordered
+            && self.at(start.wrapping_sub(1)) == "then"
             && ["into", "onto", "in", "on"].contains(&self.at(start))
             && noun > 0
             && thing + noun == end
@@ -142,7 +146,8 @@ impl Rewriting<'_> {
     /// "the tissues should be on the toilet, not shut away in a cabinet": not in a cabinet; "to the chair not sofa".
     fn not_there(&mut self, index: usize) {
         let end = self.next_mark(index, &[",", "."]);
-        if self.at(index) == "not" && self.is_participle(index + 1) {
+        let shut = self.is_participle(index + 1) || ["shut", "hidden", "stuck"].contains(&self.at(index + 1));
+        if self.at(index) == "not" && shut {
             let away = usize::from(["away", "up", "back"].contains(&self.at(index + 2)));
             if self.is_place(index + 2 + away) {
                 self.say(index + 1, index + 2 + away, &[]);
@@ -164,7 +169,10 @@ impl Rewriting<'_> {
         let Some(is) = (index + 1..end).find(|&at| self.at(at) == "is") else { return };
         let it = ["it", "them", "that"].contains(&self.at(is + 3));
         // "the fork is fine where it is"
-        if FINE.contains(&self.at(is + 1)) && ["where", "as"].contains(&self.at(is + 2)) && self.at(is + 3) == "it" {
+        if FINE.contains(&self.at(is + 1))
+            && ["where", "as"].contains(&self.at(is + 2))
+            && self.at(is + 3) == "it"
+        {
             self.say(is, end, &["stays"]);
             return;
         }
@@ -266,6 +274,17 @@ impl Rewriting<'_> {
             let states = self.words(index..end);
             self.say(index - 1, end, &[]);
             self.say_all(first, first, &states);
+        }
+    }
+
+    /// "close the fridge, toaster off, lights out": off, and no more, beside so much else.
+    fn lights_out(&mut self, index: usize) {
+        const BESIDE: usize = 3;
+        let marks = (0..self.tokens.len()).filter(|&at| [",", "."].contains(&self.at(at))).count();
+        let end = self.next_mark(index, &[",", "."]);
+        let light = end > index + 1 && ["light", "lights", "lamp", "lamps"].contains(&self.at(end - 2));
+        if index > 0 && marks >= BESIDE && light && self.at(end - 1) == "out" && end - index <= 4 {
+            self.say(end - 1, end, &["off"]);
         }
     }
 }

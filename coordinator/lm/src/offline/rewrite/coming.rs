@@ -16,6 +16,7 @@ impl Rewriting<'_> {
             self.that_same(index);
             self.before_that(index);
             self.left_of(index);
+            self.takes_its_place(index);
             self.plated(index);
             self.out_and_into(index);
             self.all_of_them(index);
@@ -132,6 +133,18 @@ impl Rewriting<'_> {
         }
     }
 
+    /// "the bottle can take its place in there": it should go in there.
+    fn takes_its_place(&mut self, index: usize) {
+        let can = usize::from(self.at(index) == "can");
+        let takes = ["take", "takes"].contains(&self.at(index + can))
+            && ["its", "their"].contains(&self.at(index + can + 1))
+            && self.at(index + can + 2) == "place"
+            && (self.at(index + can + 3) == "there" || self.at(index + can + 4) == "there");
+        if takes && index > 0 && self.noun_before(index).is_some() {
+            self.say(index, index + can + 3, &["should", "go"]);
+        }
+    }
+
     /// "whatever's left of the lettuce": the lettuce; "a good wash": a wash; "out on the counter": on it.
     fn left_of(&mut self, index: usize) {
         let is = usize::from(["is", crate::offline::text::POSSESSIVE].contains(&self.at(index + 1)));
@@ -146,6 +159,10 @@ impl Rewriting<'_> {
         {
             self.say(index + 2, index + 3, &[]);
         }
+        let state = index > 0 && ["on", "off", "open", "closed", "shut"].contains(&self.at(index - 1));
+        if self.at(index) == "again" && state {
+            self.say(index, index + 1, &[]);
+        }
         let start = self.clause_start(index);
         let out = self.at(index) == "out"
             && ["on", "in"].contains(&self.at(index + 1))
@@ -155,7 +172,7 @@ impl Rewriting<'_> {
             && self.names_only(start, index)
             && self.lexicon.noun(&[self.at(start)]).is_some()
         {
-            self.say(index, index + 1, &[]);
+            self.say(index, index + 1, &["should", "be"]);
         }
         let opens = index == start || self.at(index - 1) == "and";
         if opens && self.at(index) == "door" && ["shut", "closed"].contains(&self.at(index + 1)) && index > 0
@@ -249,11 +266,10 @@ impl Rewriting<'_> {
         let state = usize::from(self.lexicon.adjective(&[self.at(index + 2)]).is_some());
         let things = ["things", "items", "objects", "ones"].contains(&self.at(index + 2 + state));
         let pair = self.at(index + 1) == "pair" && (self.is_mark(index + 2) || is_going(self.at(index + 2)));
-        if things
-            && (is_going(self.at(index + 3 + state))
-                || ["then", "should"].contains(&self.at(index + 3 + state)))
-        {
-            self.say(index, index + 3 + state, &["both", "of", "them"]);
+        let behind = index + 3 + state;
+        let then = usize::from(self.at(behind) == "then");
+        if things && (is_going(self.at(behind + then)) || self.at(behind + then) == "should") {
+            self.say(index, behind + then, &["both", "of", "them"]);
         } else if pair {
             self.say(index, index + 2, &["both", "of", "them"]);
         }
