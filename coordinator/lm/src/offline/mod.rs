@@ -23,6 +23,7 @@ mod sense;
 mod situation;
 mod slang;
 mod snapshot;
+mod spelled_out;
 mod spelling;
 mod syntax;
 mod text;
@@ -49,6 +50,7 @@ use plain::{Plain, plain};
 use scene::Scene;
 pub use sense::{Clues, LooseNoun};
 use snapshot::Snapshot;
+use spelled_out::Told;
 use syntax::Clause;
 pub(crate) use text::damerau_levenshtein;
 
@@ -164,6 +166,8 @@ struct Reading {
     concrete: bool,
     /// How many clauses it was read from.
     clauses: usize,
+    /// What situations brought about in it, and what was said in so many words.
+    told: Told,
 }
 
 impl Reading {
@@ -179,6 +183,7 @@ impl Reading {
             only_goes: false,
             concrete: false,
             clauses: 0,
+            told: Told::default(),
         }
     }
 
@@ -283,7 +288,28 @@ fn read_words(words: &[String], instruction: &str, lexicon: &Lexicon, scene: &Sc
     reading
 }
 
+/// Reads clause by clause; a vague wish that others spell out asks for no more than they say.
 fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
+    let reading = clause_by_clause(words, &[], lexicon, scene);
+    let vague = reading.told.situations();
+    if vague.is_empty() || reading.clauses <= MANY_CLAUSES {
+        return reading;
+    }
+    let without = clause_by_clause(words, &vague, lexicon, scene);
+    let spelled_out = reading.told.spelled_out(&without.told);
+    if spelled_out.is_empty() || without.problems.len() > reading.problems.len() {
+        return reading;
+    }
+    if spelled_out == vague { without } else { clause_by_clause(words, &spelled_out, lexicon, scene) }
+}
+
+/// Reads all clauses but those whose doing is spelled out by others.
+fn clause_by_clause(
+    words: &[String],
+    spelled_out: &[usize],
+    lexicon: &Lexicon,
+    scene: &Scene<'_>,
+) -> Reading {
     let words = text::without_endings(words, lexicon);
     let mut parser = Parser::new(&words, lexicon, scene);
     let mut clauses = parser.clauses();
@@ -307,13 +333,16 @@ fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Readi
                     index += 1;
                 }
             }
+        } else if spelled_out.contains(&index) {
+            done_by_what_follows(&mut interpreter, &clauses[index]);
         } else {
             one_clause(&mut interpreter, index, &clauses, lexicon);
         }
         index += 1;
     }
     interpreter.settle_bans();
-    let facts = interpreter.facts;
+    let (facts, situations) = (interpreter.facts, interpreter.situations);
+    let said = Told::of(&facts, &situations, &discourse);
     for choice in choices {
         discourse.assume(choice, 0.95);
     }
@@ -322,7 +351,7 @@ fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Readi
     }
     let told = clauses.iter().filter(|clause| says_where(clause, scene) || says_state(clause, scene));
     let concrete = told.count() > 1 || clauses.iter().any(|clause| is_concrete(clause, lexicon, scene));
-    Reading { concrete, ..finish(discourse, facts, &clauses) }
+    Reading { concrete, told: said, ..finish(discourse, facts, &clauses) }
 }
 
 /// Reads a clause word by word; as a situation when that fails, or when a strong one fits.
@@ -420,7 +449,7 @@ fn one_clause<'a>(
 
 fn done_by_what_follows(interpreter: &mut Interpreter<'_, '_>, clause: &Clause<'_>) {
     interpreter.discourse.spoken.push(Spoken::default());
-    interpreter.discourse.assume(format!("\"{}\" is done by what follows", clause.text), 0.95);
+    interpreter.discourse.assume(format!("\"{}\" is done by what else is said", clause.text), 0.95);
 }
 
 fn as_situation(
@@ -479,6 +508,7 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
         others: Vec::new(),
         only_goes: !clauses.is_empty() && clauses.iter().all(only_goes),
         concrete: false,
+        told: Told::default(),
         clauses: clauses.len(),
     }
 }

@@ -164,6 +164,7 @@ impl Interpreter<'_, '_> {
         if self.facts.len() == before {
             return so_already;
         }
+        self.situations.push(index);
         self.discourse.assume(format!("took it as \"{}\": {}", situation.name, meant.join(", ")), 0.75);
         true
     }
