@@ -58,7 +58,8 @@ pub fn set_apart(tokens: &[Token], lexicon: &Lexicon, scene: &Scene<'_>) -> (Vec
     text.say_what_others_say();
     text.wish_for_others();
     let parts = text.parts();
-    let telling: Vec<bool> = parts.iter().map(|part| text.is_remark(*part)).collect();
+    let telling: Vec<bool> =
+        (0..parts.len()).map(|at| text.is_remark(parts[at]) || text.tells_of_the_past(at, &parts)).collect();
     let orders: Vec<bool> =
         parts.iter().zip(&telling).map(|(part, tells)| !tells && text.orders(*part)).collect();
     let said = orders.iter().filter(|orders| **orders).count();
@@ -156,7 +157,8 @@ impl Remarks<'_> {
     fn own_name(&self, index: usize) -> bool {
         self.thing(index).is_some_and(|length| {
             let words: Vec<&str> = (index..index + length).map(|at| self.at(at)).collect();
-            self.lexicon.noun(&words).is_none_or(|(noun, _)| !noun.class)
+            let liquid = ["water", "coffee", "wine"].contains(&words[0]) && length == 1;
+            !liquid && self.lexicon.noun(&words).is_none_or(|(noun, _)| !noun.class)
         })
     }
 
@@ -164,7 +166,9 @@ impl Remarks<'_> {
     fn thing(&self, index: usize) -> Option<usize> {
         let typed = self.typed(index);
         let large = typed.chars().next().is_some_and(char::is_uppercase);
-        if self.at(index) == "can" || large && typed.to_lowercase() != self.at(index) {
+        let plain = typed.to_lowercase().replace(['\'', '\u{2019}'], "");
+        let repaired = large && plain != self.at(index) && plain.strip_suffix('s') != Some(self.at(index));
+        if self.at(index) == "can" || repaired {
             return None;
         }
         let longest = LONGEST.min(self.tokens.len().saturating_sub(index));
@@ -204,6 +208,18 @@ impl Remarks<'_> {
                 && !super::text::is_known(plain, self.lexicon, self.scene)
         };
         (from..self.tokens.len()).map(named).collect()
+    }
+
+    /// "someone had a shower": of what was, if nothing behind it is said of it.
+    fn tells_of_the_past(&self, at: usize, parts: &[Part]) -> bool {
+        let part = parts[at];
+        let words = telling::spelled_out(&self.tokens[part.from..part.to]);
+        let Some(length) = telling::person(&words, &self.named_persons(part.from), self.lexicon) else {
+            return false;
+        };
+        let was = words.get(length).is_some_and(|word| ["had", "took", "used", "forgot", "broke"].contains(&word.as_str()));
+        let pronoun = |part: &Part| (part.from..part.to).any(|at| ["it", "them", "that", "one"].contains(&self.at(at)));
+        was && !words.iter().any(|word| word == "to") && !parts[at + 1..].iter().take(2).any(pronoun)
     }
 
     /// How many tokens at the start of a part name a person: the cleaner is no bottle.

@@ -260,11 +260,18 @@ impl Said<'_> {
             && (lexicon.verbs(self.at(0)).is_empty() || self.words.len() == 2)
             || self.sentence && self.at(0) == "for" && self.words.len() <= 4 && !self.own_name && !self.ends
             || self.sentence && self.words.concat() == "goodnight";
+        let time = self.sentence
+            && self.at(1) == "time"
+            && (self.words.len() == 2 || ["for", "everyone", "everybody", "guys", "people", "folks", "kids"].contains(&self.at(2)))
+            && self.words.len() <= 5;
+        let anyone = self.at(0) == "if" && ["anyone", "anybody", "someone", "somebody"].contains(&self.at(1)) && !self.thing;
         // "To wrap up after the party, …"
         let purpose = self.sentence && self.at(0) == "to" && !self.ends && !self.own_name;
         at >= self.words.len() && at > joins
             || heading
             || purpose
+            || time
+            || anyone
             || !self.own_name && self.opens_a_remark(lexicon)
     }
 
@@ -306,7 +313,7 @@ impl Said<'_> {
         let does = self.third_person(start + 1, lexicon) && !super::is_placed(verb) && !ASKS.contains(&verb);
         let perfect = ["has", "have", "is"].contains(&verb) && next == "been";
         (TELLS.contains(&verb) || does)
-            && (!self.thing || perfect)
+            && (!self.own_name || perfect)
             && !self.wishes(start)
             && !self.has(start, &["to", "you", "if"])
     }

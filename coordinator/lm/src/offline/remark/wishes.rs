@@ -71,7 +71,8 @@ impl Remarks<'_> {
         let words = telling::spelled_out(&self.tokens[index..end]);
         let person = telling::person(&words, &self.named_persons(index), self.lexicon)?;
         let rest: Vec<&str> = words[person..].iter().map(String::as_str).collect();
-        let wished = WISHED.iter().find(|wished| rest.starts_with(wished))?.len();
+        let also = usize::from(["also", "really", "just", "only"].contains(rest.first().unwrap_or(&"")));
+        let wished = also + WISHED.iter().find(|wished| rest[also..].starts_with(wished))?.len();
         let from = (0..index).rev().find(|&at| self.is_mark(at)).map_or(0, |at| at + 1);
         let named = (from..end).any(|at| self.thing(at).is_some());
         let words = person + wished;

@@ -33,6 +33,7 @@ impl Rewriting<'_> {
                 self.on_it_goes(index);
                 self.not_there(index);
                 self.lights_out(index);
+                self.same_thing(index);
                 self.goes_there(index);
                 self.then_it(index);
                 self.states_behind(index);
@@ -53,6 +54,18 @@ impl Rewriting<'_> {
         self.say(index, index + length, &[]);
         self.add_to_what_was_said(index, end - length);
         true
+    }
+
+    /// "… the coffee machine: same thing": the coffee machine too.
+    fn same_thing(&mut self, index: usize) {
+        let same = self.at(index) == "same" && ["thing", "here", "again", "deal"].contains(&self.at(index + 1));
+        let before = self.clause_start(index.saturating_sub(1));
+        let joins = usize::from(self.at(before) == "and");
+        if same && self.is_mark(index + 2) && before > 0 && self.names_only(before + joins, index - 1) {
+            self.say(index - 1, index + 2, &[]);
+            self.say(before, before + joins, &[]);
+            self.add_to_what_was_said(before, index - 1 - joins);
+        }
     }
 
     /// "the book too", "blinds down as well": added, or said again.

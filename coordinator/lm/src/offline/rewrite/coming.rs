@@ -265,7 +265,7 @@ impl Rewriting<'_> {
         }
         let state = usize::from(self.lexicon.adjective(&[self.at(index + 2)]).is_some());
         let things = ["things", "items", "objects", "ones"].contains(&self.at(index + 2 + state));
-        let pair = self.at(index + 1) == "pair" && (self.is_mark(index + 2) || is_going(self.at(index + 2)));
+        let pair = self.at(index + 1) == "pair" && (self.is_mark(index + 2) || is_going(self.at(index + 2)) || self.is_place(index + 2));
         let behind = index + 3 + state;
         let then = usize::from(self.at(behind) == "then");
         if things && (is_going(self.at(behind + then)) || self.at(behind + then) == "should") {
