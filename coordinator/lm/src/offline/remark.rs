@@ -256,7 +256,7 @@ impl Remarks<'_> {
     /// "Closing up the kitchen now:", "get the soup going:": a heading of what is said behind it.
     fn heads(&self, part: Part) -> bool {
         let first = self.at(part.from);
-        let end = (part.to + 1..self.tokens.len()).find(|&at| self.is_mark(at)).unwrap_or(self.tokens.len());
+        let end = (part.to + 1..self.tokens.len()).find(|&at| self.at(at) == ".").unwrap_or(self.tokens.len());
         let told = (part.to + 1..end)
             .any(|at| is_placed(self.at(at)) || self.lexicon.adjective(&[self.at(at)]).is_some());
         let weak = !self.is_order(part.from) || self.lexicon.is_small("weak", &[first]);
