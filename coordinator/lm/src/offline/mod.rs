@@ -16,6 +16,7 @@ mod literal;
 mod mention;
 mod phrase;
 mod plain;
+mod reading;
 mod remark;
 mod rewrite;
 mod scene;
@@ -34,7 +35,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use lamma_domains::goal::PropertyValue;
 
-use crate::{Answer, Clarification, Decomposition, LanguageModel, LmError, Request};
+use crate::{Answer, Decomposition, LanguageModel, LmError, Request};
 use clause::Parser;
 use effect::{Change, Fact, Interpreter};
 use emit::{Emitter, Stay};
@@ -47,6 +48,7 @@ use literal::{
 };
 use mention::{Discourse, Spoken};
 use plain::{Plain, plain};
+use reading::Reading;
 use scene::Scene;
 pub use sense::{Clues, LooseNoun};
 use snapshot::Snapshot;
@@ -151,80 +153,6 @@ fn check_robots(decomposition: &mut Decomposition, team: &[crate::RobotView]) {
                 }
             }
         }
-    }
-}
-
-/// A reading and what is wrong with it.
-struct Reading {
-    decomposition: Decomposition,
-    problems: Vec<String>,
-    /// Readings that were not preferred, best first.
-    others: Vec<Decomposition>,
-    /// Whether it only says where to go.
-    only_goes: bool,
-    /// Whether it says what to do to things of the scene, so that no situation stands for it.
-    concrete: bool,
-    /// How many clauses it was read from.
-    clauses: usize,
-    /// What situations brought about in it, and what was said in so many words.
-    told: Told,
-}
-
-impl Reading {
-    /// Of what has no word in it that is known.
-    fn nothing(instruction: &str) -> Self {
-        Self {
-            decomposition: Decomposition::default(),
-            problems: vec![format!(
-                "I do not know what to do for \"{}\"",
-                text::shortened(&instruction.to_lowercase())
-            )],
-            others: Vec::new(),
-            only_goes: false,
-            concrete: false,
-            clauses: 0,
-            told: Told::default(),
-        }
-    }
-
-    /// Whether it is acted upon without a question.
-    fn is_understood(&self) -> bool {
-        !self.decomposition.subtasks.is_empty() && self.decomposition.confidence >= THRESHOLD
-    }
-
-    /// Says what was taken for remarks.
-    fn remark(&mut self, remarks: &[String]) {
-        let noted = remarks.iter().map(|remark| format!("took \"{remark}\" as a remark"));
-        self.decomposition.assumptions.splice(0..0, noted);
-    }
-
-    /// The answer to what was `said`.
-    fn answer(self, said: &str, assume: bool) -> Answer {
-        let Self { decomposition, problems, others, only_goes, .. } = self;
-        let empty = decomposition.subtasks.is_empty();
-        if !empty && (assume || decomposition.confidence >= THRESHOLD) {
-            let mut decomposition = decomposition;
-            decomposition.assumptions.extend(problems);
-            return Answer::Understood(decomposition);
-        }
-        let understood = decomposition.subtasks.iter().map(|subtask| subtask.text.clone()).collect();
-        let question = match problems.first() {
-            Some(problem) => format!("I cannot act on this yet: {problem}. What shall be done?"),
-            None if empty && !decomposition.assumptions.is_empty() => {
-                format!(
-                    "I found nothing to do: {}. What shall be true in the end?",
-                    decomposition.assumptions.join("; ")
-                )
-            }
-            None if empty && only_goes => {
-                "Going somewhere alone changes nothing that I can check. What shall be done there?".to_owned()
-            }
-            None if empty => format!("I found nothing to do in \"{said}\". What shall be true in the end?"),
-            None => "Is this what you mean?".to_owned(),
-        };
-        let all = std::iter::once(decomposition).chain(others);
-        let readings = all.filter(|reading| !reading.subtasks.is_empty()).take(3).collect();
-        Answer::Clarify(Clarification { question, understood, not_understood: problems, readings })
     }
 }
 
@@ -381,9 +309,6 @@ fn one_clause<'a>(
     // "I would like the soup ladle to be washed": a wish that goes on.
     let goes_on =
         clauses.get(index + 1).is_some_and(|next| next.words.starts_with(&["to".into(), "be".into()]));
-    if std::env::var_os("LMDBG").is_some() {
-        eprintln!("DBG clause {clause:?}");
-    }
     // "close the fridge, toaster off, lights out": no more than it says.
     let noted = notes_a_state(clause, interpreter.discourse.scene)
         && others_concrete(index, clauses, lexicon, interpreter.discourse.scene) > 1;

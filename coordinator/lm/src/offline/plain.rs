@@ -36,16 +36,6 @@ pub fn plain(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Plain {
         .map(|token| (token.typed.clone(), token.text.clone()))
         .collect();
     let (left, remarks) = remark::set_apart(&tokens, lexicon, scene);
-    if std::env::var_os("LMDBG").is_some() {
-        let show =
-            |tokens: &[text::Token]| tokens.iter().map(|t| t.text.clone()).collect::<Vec<_>>().join(" ");
-        eprintln!(
-            "DBG left: {}\nDBG remarks: {remarks:?}\nDBG told: {}",
-            show(&left),
-            show(&remark::told_apart(&left, lexicon, scene))
-        );
-        eprintln!("DBG plain: {}", show(&rewrite::rewritten(left.clone(), lexicon)));
-    }
     let plainer = |tokens| {
         let tokens = rewrite::rewritten(tokens, lexicon);
         text::without_asides(tokens.into_iter().map(|token| token.text).collect(), lexicon)

@@ -217,8 +217,11 @@ impl Remarks<'_> {
         let Some(length) = telling::person(&words, &self.named_persons(part.from), self.lexicon) else {
             return false;
         };
-        let was = words.get(length).is_some_and(|word| ["had", "took", "used", "forgot", "broke"].contains(&word.as_str()));
-        let pronoun = |part: &Part| (part.from..part.to).any(|at| ["it", "them", "that", "one"].contains(&self.at(at)));
+        let was = words
+            .get(length)
+            .is_some_and(|word| ["had", "took", "used", "forgot", "broke"].contains(&word.as_str()));
+        let pronoun =
+            |part: &Part| (part.from..part.to).any(|at| ["it", "them", "that", "one"].contains(&self.at(at)));
         was && !words.iter().any(|word| word == "to") && !parts[at + 1..].iter().take(2).any(pronoun)
     }
 
@@ -256,7 +259,8 @@ impl Remarks<'_> {
     /// "Closing up the kitchen now:", "get the soup going:": a heading of what is said behind it.
     fn heads(&self, part: Part) -> bool {
         let first = self.at(part.from);
-        let end = (part.to + 1..self.tokens.len()).find(|&at| self.at(at) == ".").unwrap_or(self.tokens.len());
+        let end =
+            (part.to + 1..self.tokens.len()).find(|&at| self.at(at) == ".").unwrap_or(self.tokens.len());
         let told = (part.to + 1..end)
             .any(|at| is_placed(self.at(at)) || self.lexicon.adjective(&[self.at(at)]).is_some());
         let weak = !self.is_order(part.from) || self.lexicon.is_small("weak", &[first]);

@@ -89,13 +89,17 @@ impl Remarks<'_> {
         }
         let said: Vec<&str> = words.iter().map(String::as_str).collect();
         let person = telling::person(&words, &[], self.lexicon).is_some() || said[0] == "whoever";
-        let wished = ["want", "wants", "need", "needs", "like", "love", "should", "must", "will", "prefer", "to", "says", "said", "told", "asked"];
+        let wished = [
+            "want", "wants", "need", "needs", "like", "love", "should", "must", "will", "prefer", "to",
+            "says", "said", "told", "asked",
+        ];
         let someone = person && !words.iter().any(|word| wished.contains(&word.as_str()));
         let asks = someone
             || SPOKEN_OF.iter().any(|spoken| said.starts_with(spoken))
             || self.at(part.to) == "." && said[0] == "where";
         let start = (part.from..part.to).find(|&at| self.thing(at).is_some())?;
-        let bare = start == part.from && self.typed(start + 1).starts_with('\'') || self.at(start + 1) == "'s";
+        let bare =
+            start == part.from && self.typed(start + 1).starts_with('\'') || self.at(start + 1) == "'s";
         let from = (part.from..start).rev().find(|&at| is_determiner(self.at(at)));
         let from = from.or((start == part.from && bare).then_some(start))?;
         if start - from > 3 {

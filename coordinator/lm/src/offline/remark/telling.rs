@@ -262,9 +262,12 @@ impl Said<'_> {
             || self.sentence && self.words.concat() == "goodnight";
         let time = self.sentence
             && self.at(1) == "time"
-            && (self.words.len() == 2 || ["for", "everyone", "everybody", "guys", "people", "folks", "kids"].contains(&self.at(2)))
+            && (self.words.len() == 2
+                || ["for", "everyone", "everybody", "guys", "people", "folks", "kids"].contains(&self.at(2)))
             && self.words.len() <= 5;
-        let anyone = self.at(0) == "if" && ["anyone", "anybody", "someone", "somebody"].contains(&self.at(1)) && !self.thing;
+        let anyone = self.at(0) == "if"
+            && ["anyone", "anybody", "someone", "somebody"].contains(&self.at(1))
+            && !self.thing;
         // "To wrap up after the party, …"
         let purpose = self.sentence && self.at(0) == "to" && !self.ends && !self.own_name;
         at >= self.words.len() && at > joins
@@ -346,9 +349,13 @@ impl Said<'_> {
             && ["think", "know", "believe", "guess", "suppose", "reckon", "bet", "hope"]
                 .contains(&self.at(verb))
             && self.has(verb, &["it", "they", "theyre", "its", "he", "she"]);
+        // "I'm packing the box", not "I'm sick of that box"
+        let next = self.at(verb + 1);
+        let going = next.ends_with("ing") || ["off", "about", "just", "not", "still", "only"].contains(&next);
+        let under_way = ["am", "are"].contains(&self.at(verb)) && going;
         let later = thinks
             || needless
-            || speaker && (self.at(verb) == "will" || self.at(verb) == "am" || self.at(verb) == "are")
+            || speaker && (self.at(verb) == "will" || under_way)
             || self.has(verb, &["myself", "ourselves", "later", "tomorrow", "already", "again"]) && speaker;
         !self.own_name || later || joined
     }

@@ -23,6 +23,16 @@ impl Remarks<'_> {
             ["says", "said", "thinks", "insists", "reckons", "suggests", "suggested", "insisted", "asked"];
         let mut index = 0;
         while index < self.tokens.len() {
+            // "the recipe says to chop the lettuce": chop it.
+            let says = ["says", "said"].contains(&self.at(index)) && self.at(index + 1) == "to";
+            if says && self.is_order(index + 2) {
+                let start = (0..index).rev().find(|&at| self.is_mark(at)).map_or(0, |at| at + 1);
+                if !(start..index).any(|at| self.thing(at).is_some()) {
+                    self.tokens.drain(start..index + 2);
+                    index = start;
+                    continue;
+                }
+            }
             let opens =
                 index == 0 || self.is_mark(index - 1) || ["and", "so", "but"].contains(&self.at(index - 1));
             let words: Vec<String> =

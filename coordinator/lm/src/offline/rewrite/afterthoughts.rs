@@ -33,6 +33,7 @@ impl Rewriting<'_> {
                 self.on_it_goes(index);
                 self.not_there(index);
                 self.lights_out(index);
+                self.state_and_place(index);
                 self.same_thing(index);
                 self.goes_there(index);
                 self.then_it(index);
@@ -58,7 +59,8 @@ impl Rewriting<'_> {
 
     /// "… the coffee machine: same thing": the coffee machine too.
     fn same_thing(&mut self, index: usize) {
-        let same = self.at(index) == "same" && ["thing", "here", "again", "deal"].contains(&self.at(index + 1));
+        let same =
+            self.at(index) == "same" && ["thing", "here", "again", "deal"].contains(&self.at(index + 1));
         let before = self.clause_start(index.saturating_sub(1));
         let joins = usize::from(self.at(before) == "and");
         if same && self.is_mark(index + 2) && before > 0 && self.names_only(before + joins, index - 1) {
@@ -298,6 +300,24 @@ impl Rewriting<'_> {
         let light = end > index + 1 && ["light", "lights", "lamp", "lamps"].contains(&self.at(end - 2));
         if index > 0 && marks >= BESIDE && light && self.at(end - 1) == "out" && end - index <= 4 {
             self.say(end - 1, end, &["off"]);
+        }
+    }
+
+    /// "the candle lit on the counter", "with the laptop closed on the bed": so and there.
+    fn state_and_place(&mut self, index: usize) {
+        let end = self.next_mark(index, &[",", "."]);
+        let with = usize::from(self.at(index) == "with");
+        let first = index + with;
+        let state = (first + 1..end).find(|&at| ["lit", "open", "closed", "shut"].contains(&self.at(at)));
+        let Some(state) = state.filter(|&state| self.names_only(first, state) && !self.is_order(first))
+        else {
+            return;
+        };
+        let there = ["on", "in"].contains(&self.at(state + 1)) && is_determiner(self.at(state + 2));
+        if there && self.noun_before(end).is_some() {
+            self.say(state + 1, state + 1, &["and"]);
+            self.say(state, state, &["should", "be"]);
+            self.say(index, index + with, &[]);
         }
     }
 }

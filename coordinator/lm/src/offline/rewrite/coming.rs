@@ -16,6 +16,8 @@ impl Rewriting<'_> {
             self.that_same(index);
             self.before_that(index);
             self.left_of(index);
+            self.out_there(index);
+            self.looks_nicer(index);
             self.takes_its_place(index);
             self.plated(index);
             self.out_and_into(index);
@@ -145,7 +147,7 @@ impl Rewriting<'_> {
         }
     }
 
-    /// "whatever's left of the lettuce": the lettuce; "a good wash": a wash; "out on the counter": on it.
+    /// "whatever's left of the lettuce": the lettuce; "wants a good wash": a wash; "off again": off.
     fn left_of(&mut self, index: usize) {
         let is = usize::from(["is", crate::offline::text::POSSESSIVE].contains(&self.at(index + 1)));
         if ["whatever", "what"].contains(&self.at(index)) && self.starts(index + 1 + is, &["left", "of"]) {
@@ -163,6 +165,10 @@ impl Rewriting<'_> {
         if self.at(index) == "again" && state {
             self.say(index, index + 1, &[]);
         }
+    }
+
+    /// "the ladle out on the counter": on it; "in the fridge, door shut": shut the door.
+    fn out_there(&mut self, index: usize) {
         let start = self.clause_start(index);
         let out = self.at(index) == "out"
             && ["on", "in"].contains(&self.at(index + 1))
@@ -179,7 +185,10 @@ impl Rewriting<'_> {
         {
             self.say(index, index + 2, &["shut", "the", "door"]);
         }
-        // "the vase would look nicer on the table": it should be there.
+    }
+
+    /// "the vase would look nicer on the table": it should be there.
+    fn looks_nicer(&mut self, index: usize) {
         let looks = match (self.at(index), self.at(index + 1), self.at(index + 2)) {
             ("would", "look", _) => 2,
             ("would", "please", "me") => 3,
@@ -265,7 +274,8 @@ impl Rewriting<'_> {
         }
         let state = usize::from(self.lexicon.adjective(&[self.at(index + 2)]).is_some());
         let things = ["things", "items", "objects", "ones"].contains(&self.at(index + 2 + state));
-        let pair = self.at(index + 1) == "pair" && (self.is_mark(index + 2) || is_going(self.at(index + 2)) || self.is_place(index + 2));
+        let pair = self.at(index + 1) == "pair"
+            && (self.is_mark(index + 2) || is_going(self.at(index + 2)) || self.is_place(index + 2));
         let behind = index + 3 + state;
         let then = usize::from(self.at(behind) == "then");
         if things && (is_going(self.at(behind + then)) || self.at(behind + then) == "should") {
