@@ -179,3 +179,14 @@ pub fn tells_of_going(clause: &Clause<'_>) -> bool {
     only_goes(clause)
         && first.is_some_and(|word| ["going", "heading", "leaving", "off"].contains(&word.as_str()))
 }
+
+/// Whether a clause tells how something is and asks for nothing in words that nobody knows: not "the gate is to be
+/// painted", nor "my bike is flat, pump it up".
+pub fn tells_only(clause: &Clause<'_>) -> bool {
+    let told = ["i", "im", "ive", "we", "is", "are", "was", "were", "has", "nobody", "everyone", "everybody"];
+    let asked = ["want", "need", "like", "love", "prefer", "should", "must", "fancy", "to", "wants", "needs"];
+    let done_to_it = clause.words.windows(2).any(|two| {
+        ["it", "them"].contains(&two[1].as_str()) && !syntax::is_function_word(&two[0]) && two[0].len() > 2
+    });
+    clause.says_any(&told) && !clause.says_any(&asked) && !done_to_it
+}

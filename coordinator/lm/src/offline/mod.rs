@@ -44,7 +44,7 @@ use lexicon::Lexicon;
 pub use lexicon::squash;
 use literal::{
     goes_on_about_it, is_concrete, is_mere_step, is_weak, notes_a_state, only_goes, only_tells,
-    others_concrete, says_state, says_where, tells_of_going,
+    others_concrete, says_state, says_where, tells_of_going, tells_only,
 };
 use mention::{Discourse, Spoken};
 use plain::{Plain, plain};
@@ -359,7 +359,7 @@ fn one_clause<'a>(
         && remark
         && !interpreter.spoke
         && !names
-        && !clause.says_any(&["want", "need", "like", "love", "prefer", "should", "must", "fancy"])
+        && tells_only(clause)
         && others_concrete(index, clauses, lexicon, interpreter.discourse.scene) > 0
     {
         before.restore(interpreter);

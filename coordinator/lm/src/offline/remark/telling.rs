@@ -228,7 +228,10 @@ impl Said<'_> {
             let rest: Vec<&str> = self.words.iter().skip(from).take(LONGEST).map(String::as_str).collect();
             !rest.is_empty() && lexicon.longest_small("vague", &rest).is_some()
         };
-        !self.thing && (0..=start).any(opens)
+        // "anything that cheers him up is welcome"
+        let welcome = ["anything", "whatever", "everything", "any"].iter().any(|any| self.at(start) == *any)
+            && self.words.last().is_some_and(|word| ["welcome", "appreciated"].contains(&word.as_str()));
+        !self.thing && (welcome || (0..=start).any(opens))
     }
 
     /// "well", "oh", "also": how many words.
@@ -340,6 +343,16 @@ impl Said<'_> {
         let order = anybody && !AUXILIARIES.contains(&self.at(verb)) && !self.is_past(verb, lexicon)
             || anybody && ["can", "could", "will"].contains(&self.at(verb));
         let needless = !speaker && negated && self.has(verb, &["need"]);
+        // "Grandma wants her tea", "the dog has to be walked": it is asked for; "she wants me to rest" is not.
+        let asks = ["wants", "want", "needs", "need", "would"].contains(&self.at(verb))
+            && !negated
+            && !(["me", "us", "him", "her"].contains(&self.at(verb + 1)) && self.at(verb + 2) == "to")
+            || ["has", "have"].contains(&self.at(verb))
+                && self.at(verb + 1) == "to"
+                && self.at(verb + 2) == "be";
+        if asks && !needless {
+            return false;
+        }
         if !told || asked || order || wished && !needless && (speaker || self.own_name) {
             return false;
         }
