@@ -271,6 +271,7 @@ impl Remarks<'_> {
             && !listed
             && (part.from == 0 || self.at(part.from - 1) == ".")
             && (told || self.is_order(part.to + 1))
+            && (part.to + 1..end).any(|at| self.thing(at).is_some())
     }
 
     /// Whether what a part tells asks for nothing: no situation answers it, it says why or when, or the order that
