@@ -217,7 +217,8 @@ impl<'a> Parser<'a> {
             && !self.is_wished(start)
             && (!clause.objects.is_empty() || goes_somewhere(&clause) && places(previous))
         {
-            if only_pronouns(previous) && goes_somewhere(&clause) && !places(previous) {
+            let other = only_pronouns(previous) || !self.may_be_done_to(previous, &clause);
+            if other && goes_somewhere(&clause) && !places(previous) {
                 // "put it on the desk and shut it, the pen in the drawer"
                 clause.verbs = self.putting();
                 clause.verb_text = "put".to_owned();

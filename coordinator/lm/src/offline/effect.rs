@@ -43,6 +43,8 @@ pub struct Interpreter<'d, 'a> {
     pub(super) prohibitions: Vec<forbid::Prohibition>,
     /// Whether the clause at hand said anything, new or not.
     pub spoke: bool,
+    /// The clauses that were read as situations.
+    pub situations: Vec<usize>,
 }
 
 impl<'d, 'a> Interpreter<'d, 'a> {
@@ -81,6 +83,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
             clause: 0,
             prohibitions: Vec::new(),
             spoke: false,
+            situations: Vec::new(),
         }
     }
 

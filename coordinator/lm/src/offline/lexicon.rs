@@ -457,7 +457,8 @@ impl Lexicon {
     /// The words that a strange one may be a slip for.
     pub fn spelling(&self) -> &Spelling {
         self.spelling.get_or_init(|| {
-            let misspellable = |known: &&str| !self.is_small("real", &[known]);
+            let misspellable =
+                |known: &&str| !["real", "people"].iter().any(|list| self.is_small(list, &[known]));
             let words = self.vocabulary.iter().map(String::as_str).filter(misspellable);
             Spelling::with_common(words, |word| self.is_small("common", &[word]))
         })

@@ -148,3 +148,45 @@ pub fn goes_on_about_it(clause: &Clause<'_>) -> bool {
         && clause.objects.iter().all(it)
         && !clause.says_any(&["otherwise", "else"])
 }
+
+/// "lights out": whether a clause says of things of the scene what they shall be, and nothing else.
+pub fn notes_a_state(clause: &Clause<'_>, scene: &Scene<'_>) -> bool {
+    let is_here = |phrase: &syntax::Phrase| match &phrase.head {
+        syntax::Head::Noun(noun) => noun.kinds.iter().any(|kind| scene.has(kind)),
+        syntax::Head::Named(_) => true,
+        _ => false,
+    };
+    let shuts = ["isToggled", "isOpen"];
+    !clause.objects.is_empty()
+        && clause.objects.iter().all(is_here)
+        && clause.places.is_empty()
+        && clause.unknown.is_empty()
+        && (!clause.complement.is_empty()
+            || clause.words.last().is_some_and(|word| ["out", "on", "off"].contains(&word.as_str())))
+        && clause.complement.keys().all(|property| shuts.contains(&property.as_str()))
+}
+
+/// How many clauses but one say what to do to a thing of the scene that they name.
+pub fn others_concrete(index: usize, clauses: &[Clause<'_>], lexicon: &Lexicon, scene: &Scene<'_>) -> usize {
+    let concrete = |clause: &Clause<'_>| is_concrete(clause, lexicon, scene) || notes_a_state(clause, scene);
+    clauses.iter().enumerate().filter(|(other, clause)| *other != index && concrete(clause)).count()
+}
+
+/// "going to sleep now", "heading out": of somebody's own going, not of a robot's.
+pub fn tells_of_going(clause: &Clause<'_>) -> bool {
+    let first =
+        clause.words.iter().find(|word| ![",", "and", "so", "im", "i", "we", "am"].contains(&word.as_str()));
+    only_goes(clause)
+        && first.is_some_and(|word| ["going", "heading", "leaving", "off"].contains(&word.as_str()))
+}
+
+/// Whether a clause tells how something is and asks for nothing in words that nobody knows: not "the gate is to be
+/// painted", nor "my bike is flat, pump it up".
+pub fn tells_only(clause: &Clause<'_>) -> bool {
+    let told = ["i", "im", "ive", "we", "is", "are", "was", "were", "has", "nobody", "everyone", "everybody"];
+    let asked = ["want", "need", "like", "love", "prefer", "should", "must", "fancy", "to", "wants", "needs"];
+    let done_to_it = clause.words.windows(2).any(|two| {
+        ["it", "them"].contains(&two[1].as_str()) && !syntax::is_function_word(&two[0]) && two[0].len() > 2
+    });
+    clause.says_any(&told) && !clause.says_any(&asked) && !done_to_it
+}

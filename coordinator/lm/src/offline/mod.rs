@@ -16,12 +16,16 @@ mod lexicon;
 mod literal;
 mod mention;
 mod phrase;
+mod plain;
 mod reading;
+mod remark;
 mod rewrite;
 mod scene;
 mod sense;
 mod situation;
+mod slang;
 mod snapshot;
+mod spelled_out;
 mod spelling;
 mod syntax;
 mod text;
@@ -40,13 +44,16 @@ pub use gloss::Gloss;
 use lexicon::Lexicon;
 pub use lexicon::squash;
 use literal::{
-    goes_on_about_it, is_concrete, is_mere_step, is_weak, only_goes, only_tells, says_state, says_where,
+    goes_on_about_it, is_concrete, is_mere_step, is_weak, notes_a_state, only_goes, only_tells,
+    others_concrete, says_state, says_where, tells_of_going, tells_only,
 };
 use mention::{Discourse, Spoken};
+use plain::{Plain, plain};
 use reading::Reading;
 use scene::Scene;
 pub use sense::{Clues, LooseNoun};
 use snapshot::Snapshot;
+use spelled_out::Told;
 use syntax::Clause;
 pub(crate) use text::damerau_levenshtein;
 
@@ -150,95 +157,25 @@ fn check_robots(decomposition: &mut Decomposition, team: &[crate::RobotView]) {
     }
 }
 
-/// An instruction in plainer words.
-struct Plain {
-    words: Vec<String>,
-    /// The words as they were said.
-    said: Vec<String>,
-    /// What was taken for a slip of the pen, in words.
-    repairs: Vec<String>,
-    /// Mended words as they were typed, and as they are read.
-    typed: Vec<(String, String)>,
-    /// Where the instruction was cut off for its length.
-    cut: usize,
-}
-
-fn plain(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Plain {
-    let cut = instruction
-        .char_indices()
-        .map(|(at, _)| at)
-        .find(|&at| at >= text::LONGEST_INSTRUCTION)
-        .unwrap_or(instruction.len());
-    let tokens = text::without_list_numbers(text::tokens(&instruction[..cut]));
-    let mut tokens = text::split_articles(tokens, lexicon, scene);
-    let repairs = text::repair_spelling(&mut tokens, lexicon, scene);
-    let typed: Vec<(String, String)> = tokens
-        .iter()
-        .filter(|token| repairs.contains(&text::repair_note(token)))
-        .map(|token| (token.typed.clone(), token.text.clone()))
-        .collect();
-    let said = rewrite::written_out(tokens.clone(), lexicon);
-    let said = said.into_iter().map(|token| token.text).collect();
-    let tokens = rewrite::rewritten(tokens, lexicon);
-    let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
-    let words = text::without_asides(words, lexicon);
-    Plain { words, said, repairs, typed, cut }
-}
-
-/// A reading of the gist of what was said, if that leaves nothing open.
-fn in_short(said: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Option<Reading> {
-    let short = gist::gist(said, lexicon, scene)?.join(" ");
-    let tokens = rewrite::rewritten(text::tokens(&short), lexicon);
-    let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
-    let mut reading = word_by_word(&words, lexicon, scene);
-    if reading.asks() || !reading.problems.is_empty() {
-        return None;
-    }
-    reading.decomposition.confidence = reading.decomposition.confidence.min(reading::AS_A_GIST);
-    let short = short.replace(" .", ".");
-    reading
-        .decomposition
-        .assumptions
-        .insert(0, format!("took it in short as \"{}\"", short.trim_end_matches('.')));
-    Some(reading)
-}
-
-/// The best reading of an instruction: word by word, or as a situation where that explains more.
+/// The best reading of an instruction: without its remarks, or with them where nothing is understood without.
 fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
-    let Plain { words, said, repairs, typed, cut } = plain(instruction, lexicon, scene);
-    if text::says_nothing(&words, lexicon, scene) {
-        return Reading::nothing(instruction);
-    }
-    let mut reading = word_by_word(&words, lexicon, scene);
-    let strong = situation::ranked(lexicon, &situation::words_of(&words), true);
-    let explained = strong.first().map_or(0, |(_, explained)| *explained);
-    let absent = reading.problems.iter().any(|problem| problem.starts_with("there is no "));
-    let one_sentence = !words[..words.len().saturating_sub(1)].contains(&".".to_owned());
-    let sure = reading.decomposition.confidence > SURE;
-    if explained >= SURE_WHOLE && one_sentence && !sure && !reading.concrete {
-        if let Some(whole) = as_situation(&words, instruction, lexicon, scene) {
-            reading = whole;
+    let Plain { words, said, others, repairs, remarks, typed, cut } = plain(instruction, lexicon, scene);
+    let mut reading = read_words(&words, instruction, lexicon, scene);
+    reading.remark(&remarks);
+    for words in others {
+        if reading.is_understood() {
+            break;
         }
-    } else if (!absent || explained >= 2)
-        && !reading.concrete
-        && (reading.clauses < MANY_CLAUSES || reading.decomposition.subtasks.is_empty())
-        && (reading.decomposition.subtasks.is_empty() || reading.decomposition.confidence < THRESHOLD)
-    {
-        let whole = as_situation(&words, instruction, lexicon, scene);
-        match whole {
-            Some(mut whole) if whole.decomposition.confidence > reading.decomposition.confidence => {
-                whole.others.push(reading.decomposition);
-                reading = whole;
-            }
-            Some(whole) => reading.others.push(whole.decomposition),
-            None => {}
+        let other = read_words(&words, instruction, lexicon, scene);
+        if other.is_understood() {
+            reading = other;
         }
     }
-    if let Some(mut told) = in_short(&said, lexicon, scene)
+    if let Some(told) = in_short(&said, lexicon, scene)
         && told.says_more_than(&reading)
     {
-        told.others.push(reading.decomposition);
-        reading = told;
+        reading.give_way_to(told);
+        reading.remark(&remarks);
     }
     if cut < instruction.len() {
         reading.problems.push("the instruction is too long; only its beginning was read".to_owned());
@@ -253,7 +190,77 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
     reading
 }
 
+/// A reading of the gist of what was said, if that leaves nothing open.
+fn in_short(said: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Option<Reading> {
+    let short = gist::gist(said, lexicon, scene)?.join(" ");
+    let tokens = rewrite::rewritten(text::tokens(&short), lexicon);
+    let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
+    let mut reading = word_by_word(&words, lexicon, scene);
+    if !reading.is_understood() || !reading.problems.is_empty() {
+        return None;
+    }
+    reading.decomposition.confidence = reading.decomposition.confidence.min(reading::AS_A_GIST);
+    let short = short.replace(" .", ".");
+    let short = format!("took it in short as \"{}\"", short.trim_end_matches('.'));
+    reading.decomposition.assumptions.insert(0, short);
+    Some(reading)
+}
+
+/// The best reading of some words: word by word, or as a situation where that explains more.
+fn read_words(words: &[String], instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
+    if text::says_nothing(words, lexicon, scene) {
+        return Reading::nothing(instruction);
+    }
+    let mut reading = word_by_word(words, lexicon, scene);
+    let strong = situation::ranked(lexicon, &situation::words_of(words), true);
+    let explained = strong.first().map_or(0, |(_, explained)| *explained);
+    let absent = reading.problems.iter().any(|problem| problem.starts_with("there is no "));
+    let one_sentence = !words[..words.len().saturating_sub(1)].contains(&".".to_owned());
+    let sure = reading.decomposition.confidence > SURE;
+    if explained >= SURE_WHOLE && one_sentence && !sure && !reading.concrete {
+        if let Some(whole) = as_situation(words, instruction, lexicon, scene) {
+            reading = whole;
+        }
+    } else if (!absent || explained >= 2)
+        && !reading.concrete
+        && (reading.clauses < MANY_CLAUSES || reading.decomposition.subtasks.is_empty())
+        && (reading.decomposition.subtasks.is_empty() || reading.decomposition.confidence < THRESHOLD)
+    {
+        let whole = as_situation(words, instruction, lexicon, scene);
+        match whole {
+            Some(mut whole) if whole.decomposition.confidence > reading.decomposition.confidence => {
+                whole.others.push(reading.decomposition);
+                reading = whole;
+            }
+            Some(whole) => reading.others.push(whole.decomposition),
+            None => {}
+        }
+    }
+    reading
+}
+
+/// Reads clause by clause; a vague wish that others spell out asks for no more than they say.
 fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
+    let reading = clause_by_clause(words, &[], lexicon, scene);
+    let vague = reading.told.situations();
+    if vague.is_empty() || reading.clauses <= MANY_CLAUSES {
+        return reading;
+    }
+    let without = clause_by_clause(words, &vague, lexicon, scene);
+    let spelled_out = reading.told.spelled_out(&without.told);
+    if spelled_out.is_empty() || without.problems.len() > reading.problems.len() {
+        return reading;
+    }
+    if spelled_out == vague { without } else { clause_by_clause(words, &spelled_out, lexicon, scene) }
+}
+
+/// Reads all clauses but those whose doing is spelled out by others.
+fn clause_by_clause(
+    words: &[String],
+    spelled_out: &[usize],
+    lexicon: &Lexicon,
+    scene: &Scene<'_>,
+) -> Reading {
     let words = text::without_endings(words, lexicon);
     let mut parser = Parser::new(&words, lexicon, scene);
     let mut clauses = parser.clauses();
@@ -277,13 +284,16 @@ fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Readi
                     index += 1;
                 }
             }
+        } else if spelled_out.contains(&index) {
+            done_by_what_follows(&mut interpreter, &clauses[index]);
         } else {
             one_clause(&mut interpreter, index, &clauses, lexicon);
         }
         index += 1;
     }
     interpreter.settle_bans();
-    let facts = interpreter.facts;
+    let (facts, situations) = (interpreter.facts, interpreter.situations);
+    let said = Told::of(&facts, &situations, &discourse);
     for choice in choices {
         discourse.assume(choice, 0.95);
     }
@@ -292,7 +302,7 @@ fn word_by_word(words: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Readi
     }
     let told = clauses.iter().filter(|clause| says_where(clause, scene) || says_state(clause, scene));
     let concrete = told.count() > 1 || clauses.iter().any(|clause| is_concrete(clause, lexicon, scene));
-    Reading { concrete, ..finish(discourse, facts, &clauses) }
+    Reading { concrete, told: said, ..finish(discourse, facts, &clauses) }
 }
 
 /// Reads a clause word by word; as a situation when that fails, or when a strong one fits.
@@ -310,7 +320,9 @@ fn one_clause<'a>(
     }
     // "empty the sink by moving the pan to the stove": what comes next says how.
     let by = clauses.get(index + 1).is_some_and(|next| next.words.first().is_some_and(|word| word == "by"));
-    let words = situation::words_of(&clause.words);
+    let so =
+        clause.words.iter().take_while(|word| ["and", "so", "but", ","].contains(&word.as_str())).count();
+    let words = situation::words_of(&clause.words[so..]);
     let names =
         clause.objects.iter().any(|p| matches!(p.head, syntax::Head::Noun(_) | syntax::Head::Named(_)));
     if by && !names && is_weak(clause, lexicon) {
@@ -320,7 +332,11 @@ fn one_clause<'a>(
     // "I would like the soup ladle to be washed": a wish that goes on.
     let goes_on =
         clauses.get(index + 1).is_some_and(|next| next.words.starts_with(&["to".into(), "be".into()]));
+    // "close the fridge, toaster off, lights out": no more than it says.
+    let noted = notes_a_state(clause, interpreter.discourse.scene)
+        && others_concrete(index, clauses, lexicon, interpreter.discourse.scene) > 1;
     if !clause.negated
+        && !noted
         && !goes_on
         && is_weak(clause, lexicon)
         && !says_where(clause, interpreter.discourse.scene)
@@ -348,12 +364,32 @@ fn one_clause<'a>(
         }
         literal.restore(interpreter);
     }
+    // "going to sleep now, so …"
+    if !failed && !interpreter.spoke && tells_of_going(clause) {
+        let ranked = situation::ranked(lexicon, &words, false);
+        if interpreter.first_situation(index, &ranked, &words) {
+            interpreter.speak_of_what_came_about(index, clauses);
+            return;
+        }
+    }
     if failed && by && !interpreter.spoke {
         before.restore(interpreter);
         done_by_what_follows(interpreter, clause);
         return;
     }
     let remark = clause.is_remark() && clauses.len() > 1;
+    if failed
+        && remark
+        && !interpreter.spoke
+        && !names
+        && tells_only(clause)
+        && others_concrete(index, clauses, lexicon, interpreter.discourse.scene) > 0
+    {
+        before.restore(interpreter);
+        interpreter.discourse.assume(format!("took \"{}\" as a remark", clause.text), 0.95);
+        interpreter.discourse.spoken.push(Spoken::default());
+        return;
+    }
     if failed && !interpreter.spoke && !clause.negated && !is_mere_step(clause) && !remark {
         interpreter.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.4);
     }
@@ -361,7 +397,7 @@ fn one_clause<'a>(
 
 fn done_by_what_follows(interpreter: &mut Interpreter<'_, '_>, clause: &Clause<'_>) {
     interpreter.discourse.spoken.push(Spoken::default());
-    interpreter.discourse.assume(format!("\"{}\" is done by what follows", clause.text), 0.95);
+    interpreter.discourse.assume(format!("\"{}\" is done by what else is said", clause.text), 0.95);
 }
 
 fn as_situation(
@@ -420,6 +456,7 @@ fn finish(mut discourse: Discourse<'_>, facts: Vec<Fact>, clauses: &[Clause<'_>]
         others: Vec::new(),
         only_goes: !clauses.is_empty() && clauses.iter().all(only_goes),
         concrete: false,
+        told: Told::default(),
         clauses: clauses.len(),
     }
 }

@@ -1,12 +1,13 @@
-//! What was read, how sure it is, and which of two readings says more.
+//! A reading of an instruction, which of two says more, and the answer it makes.
 
 use lamma_domains::goal::{Content, GoalEntry};
 
+use super::spelled_out::Told;
 use super::{SURE, THRESHOLD, text};
 use crate::{Answer, Clarification, Decomposition};
 
 /// How sure a reading is at most that was put together from parts.
-pub const AS_A_GIST: f64 = 0.6;
+pub(super) const AS_A_GIST: f64 = 0.6;
 
 /// A reading this sure is not replaced by a gist that says no more.
 const SURE_OF_ALL: f64 = 0.96;
@@ -15,22 +16,24 @@ const SURE_OF_ALL: f64 = 0.96;
 const MANY_PARTS: usize = 3;
 
 /// A reading and what is wrong with it.
-pub struct Reading {
-    pub decomposition: Decomposition,
-    pub problems: Vec<String>,
+pub(super) struct Reading {
+    pub(super) decomposition: Decomposition,
+    pub(super) problems: Vec<String>,
     /// Readings that were not preferred, best first.
-    pub others: Vec<Decomposition>,
+    pub(super) others: Vec<Decomposition>,
     /// Whether it only says where to go.
-    pub only_goes: bool,
+    pub(super) only_goes: bool,
     /// Whether it says what to do to things of the scene, so that no situation stands for it.
-    pub concrete: bool,
+    pub(super) concrete: bool,
     /// How many clauses it was read from.
-    pub clauses: usize,
+    pub(super) clauses: usize,
+    /// What situations brought about in it, and what was said in so many words.
+    pub(super) told: Told,
 }
 
 impl Reading {
     /// Of what has no word in it that is known.
-    pub fn nothing(instruction: &str) -> Self {
+    pub(super) fn nothing(instruction: &str) -> Self {
         Self {
             decomposition: Decomposition::default(),
             problems: vec![format!(
@@ -41,11 +44,51 @@ impl Reading {
             only_goes: false,
             concrete: false,
             clauses: 0,
+            told: Told::default(),
         }
     }
 
+    /// Whether it is acted upon without a question.
+    pub(super) fn is_understood(&self) -> bool {
+        !self.decomposition.subtasks.is_empty() && self.decomposition.confidence >= THRESHOLD
+    }
+
+    /// Says what was taken for remarks.
+    pub(super) fn remark(&mut self, remarks: &[String]) {
+        let noted = remarks.iter().map(|remark| format!("took \"{remark}\" as a remark"));
+        self.decomposition.assumptions.splice(0..0, noted);
+    }
+
+    /// How many changes it asks for.
+    fn changes(&self) -> usize {
+        fn of(entry: &GoalEntry) -> usize {
+            let inside = entry.contains.iter().map(|content| match content {
+                Content::Named(_) => 1,
+                Content::With(inner) => 1 + of(inner),
+            });
+            entry.is.len() + inside.sum::<usize>()
+        }
+        let lasting = self.decomposition.subtasks.iter().filter(|subtask| subtask.lasting);
+        lasting.flat_map(|subtask| &subtask.goal).map(of).sum()
+    }
+
+    /// Whether a gist is rather to be acted on than another reading: that one asks or is guessed, or it is of many
+    /// parts, and the other leaves out some of it or is not sure of all it says.
+    pub(super) fn says_more_than(&self, other: &Self) -> bool {
+        let unsure = other.decomposition.confidence < SURE_OF_ALL;
+        let many = self.changes() >= MANY_PARTS;
+        let guessed = other.decomposition.confidence < SURE && self.changes() > 1;
+        !other.is_understood() || guessed || many && (unsure || self.changes() > other.changes())
+    }
+
+    /// Takes another reading's place for it, and keeps what it was among the others.
+    pub(super) fn give_way_to(&mut self, other: Self) {
+        let given_up = std::mem::replace(self, other);
+        self.others.push(given_up.decomposition);
+    }
+
     /// The answer to what was `said`.
-    pub fn answer(self, said: &str, assume: bool) -> Answer {
+    pub(super) fn answer(self, said: &str, assume: bool) -> Answer {
         let Self { decomposition, problems, others, only_goes, .. } = self;
         let empty = decomposition.subtasks.is_empty();
         if !empty && (assume || decomposition.confidence >= THRESHOLD) {
@@ -71,32 +114,5 @@ impl Reading {
         let all = std::iter::once(decomposition).chain(others);
         let readings = all.filter(|reading| !reading.subtasks.is_empty()).take(3).collect();
         Answer::Clarify(Clarification { question, understood, not_understood: problems, readings })
-    }
-
-    /// Whether it is not enough to act on.
-    pub fn asks(&self) -> bool {
-        self.decomposition.subtasks.is_empty() || self.decomposition.confidence < THRESHOLD
-    }
-
-    /// How many changes it asks for.
-    fn changes(&self) -> usize {
-        fn of(entry: &GoalEntry) -> usize {
-            let inside = entry.contains.iter().map(|content| match content {
-                Content::Named(_) => 1,
-                Content::With(inner) => 1 + of(inner),
-            });
-            entry.is.len() + inside.sum::<usize>()
-        }
-        let lasting = self.decomposition.subtasks.iter().filter(|subtask| subtask.lasting);
-        lasting.flat_map(|subtask| &subtask.goal).map(of).sum()
-    }
-
-    /// Whether a gist is rather to be acted on than another reading: that one asks; or it is of many parts, and the
-    /// other leaves out some of it or is not sure of all it says.
-    pub fn says_more_than(&self, other: &Self) -> bool {
-        let unsure = other.decomposition.confidence < SURE_OF_ALL;
-        let many = self.changes() >= MANY_PARTS;
-        let guessed = other.decomposition.confidence < SURE && self.changes() > 1;
-        other.asks() || guessed || many && (unsure || self.changes() > other.changes())
     }
 }

@@ -5,9 +5,11 @@ use super::lexicon::{LONGEST, Lexicon};
 use super::syntax::{is_determiner, preposition};
 use super::text::Token;
 
+mod afterthoughts;
 mod arrangement;
 mod asides;
 mod becoming;
+mod coming;
 mod conditions;
 mod exceptions;
 mod fragment;
@@ -45,6 +47,8 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
     text.slips();
+    text.afterthoughts();
+    text.comings();
     text.places_after_places();
     text.duties();
     text.whose_slices();

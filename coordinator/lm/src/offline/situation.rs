@@ -140,6 +140,7 @@ impl Interpreter<'_, '_> {
         self.at_clause(index);
         let before = self.facts.len();
         let mut meant = Vec::new();
+        let mut so_already = false;
         for template in &situation.goal {
             if template.otherwise && self.facts.len() > before {
                 continue;
@@ -153,6 +154,7 @@ impl Interpreter<'_, '_> {
                 return false;
             }
             for entity in found {
+                so_already |= self.is_asked_for(entity, template);
                 let kind = self.discourse.entities[entity].kind().to_owned();
                 if self.bring_about(entity, template, words) && !meant.contains(&kind) {
                     meant.push(kind);
@@ -160,10 +162,20 @@ impl Interpreter<'_, '_> {
             }
         }
         if self.facts.len() == before {
-            return false;
+            return so_already;
         }
+        self.situations.push(index);
         self.discourse.assume(format!("took it as \"{}\": {}", situation.name, meant.join(", ")), 0.75);
         true
+    }
+
+    /// Whether the states that a template asks of a thing were asked for before.
+    fn is_asked_for(&self, entity: usize, template: &Template) -> bool {
+        let asked = |(property, value): (&String, &PropertyValue)| {
+            let same = Change::State(property.clone(), value.clone());
+            self.facts.iter().any(|fact| fact.entity == entity && fact.change == same)
+        };
+        !template.is.is_empty() && template.is.iter().all(asked)
     }
 
     /// The things of the scene that words name and that afford something.

@@ -69,7 +69,7 @@ pub fn tokens(instruction: &str) -> Vec<Token> {
                 flush(&mut word, &mut found);
                 found.push(Token { text: "and".to_owned(), typed: c.to_string() });
             }
-            '>' | '\u{2192}' => {
+            '>' | '=' | '\u{2192}' => {
                 flush(&mut word, &mut found);
                 found.push(Token { text: "to".to_owned(), typed: c.to_string() });
             }

@@ -53,4 +53,17 @@ impl<'a> Parser<'a> {
             clause.unknown.clear();
         }
     }
+
+    /// Whether what is done before can be done to what a clause names: no towel is turned on, no sponge emptied.
+    pub(super) fn may_be_done_to(&self, previous: &Clause<'a>, clause: &Clause<'a>) -> bool {
+        const SPECIAL: [&str; 3] = ["toggleable", "openable", "canFillWithLiquid"];
+        let fits = |phrase: &Phrase, wants: &str| match &phrase.head {
+            Head::Noun(noun) => self.can_be(noun, wants),
+            _ => true,
+        };
+        let wanted = previous.verbs.iter().filter_map(|verb| verb.wants.as_deref());
+        let mut special = wanted.filter(|wants| SPECIAL.contains(wants)).peekable();
+        special.peek().is_none()
+            || special.any(|wants| clause.objects.iter().any(|phrase| fits(phrase, wants)))
+    }
 }

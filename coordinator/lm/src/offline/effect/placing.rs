@@ -266,7 +266,8 @@ impl<'a> Interpreter<'_, 'a> {
         self.leave_what_does_not_fit(clause, &mut objects, &places);
         if let (true, Some(&place)) = (goal.on_top, places.first()) {
             let kind = self.discourse.entities[place].kind().to_owned();
-            if self.discourse.scene.affords(&kind, "openable") {
+            let lid = self.discourse.lexicon.is_small("lids", &[&kind.to_lowercase()]);
+            if self.discourse.scene.affords(&kind, "openable") && !lid {
                 let text = format!("nothing is known to stand on top of the {kind}, only within it");
                 self.discourse.problem(text, 0.45);
             }

@@ -84,7 +84,7 @@ impl Rewriting<'_> {
         device && (end.saturating_sub(LONGEST_NAME)..end).any(goes)
     }
 
-    fn says_to_put_or_take(&self, start: usize) -> bool {
+    pub(super) fn says_to_put_or_take(&self, start: usize) -> bool {
         let takes = |at: usize| {
             self.lexicon.verbs(self.at(at)).iter().any(|(_, particles, verb)| {
                 particles.is_empty() && matches!(verb.act, Act::Place | Act::Hold)

@@ -196,6 +196,7 @@ impl Chunker<'_> {
             "why" | "how" | "prepare" | "fix" => Chunk::Hard,
             "no" if next == "," => Chunk::Hard,
             "make" | "mix" if ["a", "some", "an"].contains(&next) => Chunk::Hard,
+            "give" if ["me", "us"].contains(&next) => Chunk::Moves(None),
             "give" | "hand" | "pass" | "hold" | "use" | "only" if unnamed() => Chunk::Hard,
             "the" if next == "same" && unnamed() => Chunk::Hard,
             "can" if unnamed() || !BEHIND_A_STATE.contains(&next) => Chunk::Wish,
