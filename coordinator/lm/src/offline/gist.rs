@@ -302,6 +302,7 @@ impl<'a> Gist<'a> {
         let object = match self.chunk(at + 1) {
             Some(Chunk::Thing(thing)) => !thing.absent && is_determiner(&thing.words[0]),
             Some(Chunk::Again(_)) => true,
+            Some(Chunk::Other(next)) => ["the", "my", "our", "a", "an"].contains(&next.as_str()),
             _ => false,
         };
         self.listing &= opens || word.ends_with("ly");

@@ -12,7 +12,7 @@ pub struct Plain {
     pub said: Vec<String>,
     /// What was taken for a slip of the pen, in words.
     pub repairs: Vec<String>,
-    /// The same with things named that pronouns stand for, and with the remarks, if there are any.
+    /// The same with things named that pronouns stand for, and as it was said, remarks and all, where that differs.
     pub others: Vec<Vec<String>>,
     /// What was taken for remarks.
     pub remarks: Vec<String>,
@@ -45,7 +45,7 @@ pub fn plain(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Plain {
     let said = rewrite::written_out(left.clone(), lexicon).into_iter().map(|token| token.text).collect();
     let named = remark::told_apart(&left, lexicon, scene);
     let named = (named != left).then(|| plainer(named));
-    let whole = (!remarks.is_empty()).then(|| plainer(tokens));
+    let whole = (left != tokens).then(|| plainer(tokens));
     Plain {
         words: plainer(left),
         said,

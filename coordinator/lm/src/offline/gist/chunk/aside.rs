@@ -182,8 +182,12 @@ impl Chunker<'_> {
 
     /// Whether something is ordered or wished in a range.
     fn orders_in(&self, from: usize, to: usize) -> bool {
+        let shall =
+            |at: usize| ["has", "have", "is", "are"].contains(&self.at(at)) && self.at(at + 1) == "to";
         (from..to).any(|at| {
-            ["want", "need", "should", "must", "please", "expect", "wants", "needs"].contains(&self.at(at))
+            shall(at)
+                || ["want", "need", "should", "must", "please", "expect", "wants", "needs"]
+                    .contains(&self.at(at))
         })
     }
 

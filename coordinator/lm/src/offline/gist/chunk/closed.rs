@@ -168,8 +168,26 @@ impl Chunker<'_> {
         Some(Thing { words, kinds: noun.kinds.clone(), plural: false, absent })
     }
 
+    /// "the gizmo should be frobbed": something is asked of what nobody knows.
+    fn asks_of_nothing(&self, at: usize) -> bool {
+        let noun = at.checked_sub(1).map_or("", |before| self.at(before));
+        let named = at > 1 && is_determiner(self.at(at - 2));
+        let shall = ["should", "must", "shall", "needs"].contains(&self.at(at))
+            || ["has", "have", "is", "are"].contains(&self.at(at)) && self.starts(at + 1, &["to", "be"]);
+        shall
+            && named
+            && !is_function_word(noun)
+            && self.parser.longest_noun_at(at - 1).is_none()
+            && self.lexicon.adjective(&[noun]).is_none()
+            && !self.lexicon.is_small("slices", &[noun.trim_end_matches('s')])
+            && !self.lexicon.is_small("rooms", &[noun])
+    }
+
     fn small_word(&self, at: usize, opens: bool) -> Option<Chunk> {
         let (word, next) = (self.at(at), self.at(at + 1));
+        if self.asks_of_nothing(at) {
+            return Some(Chunk::Hard);
+        }
         let unnamed = || self.thing(at).is_none();
         Some(match word {
             "." => Chunk::Stop,
