@@ -266,9 +266,18 @@ impl<'a> Gist<'a> {
 
     fn stop(&mut self) -> Option<()> {
         self.ends_in_denial();
+        self.put_with_the_rest();
         (self.tells, self.denied, self.pending, self.front, self.same) = (false, false, None, None, false);
         (self.moved, self.listing) = (false, false);
         self.homeless.is_none().then_some(())
+    }
+
+    /// "put the dishes on the table: the plate and the cup."
+    fn put_with_the_rest(&mut self) {
+        let place = self.saying.place_of_them(&self.topic).filter(|_| self.fresh).map(<[String]>::to_vec);
+        if let Some(place) = place {
+            self.put(&place);
+        }
     }
 
     /// "the desk lamp lit, the floor lamp not"

@@ -172,7 +172,7 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
         }
     }
     if let Some(told) = in_short(&said, lexicon, scene)
-        && told.says_more_than(&reading)
+        && (told.says_more_than(&reading) || reading.asks_what_cannot_be(scene, lexicon))
     {
         reading.give_way_to(told);
         reading.remark(&remarks);

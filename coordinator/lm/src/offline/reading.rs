@@ -2,6 +2,8 @@
 
 use lamma_domains::goal::{Content, GoalEntry};
 
+use super::lexicon::Lexicon;
+use super::scene::Scene;
 use super::spelled_out::Told;
 use super::{SURE, THRESHOLD, text};
 use crate::{Answer, Clarification, Decomposition};
@@ -79,6 +81,23 @@ impl Reading {
         let many = self.changes() >= MANY_PARTS;
         let guessed = other.decomposition.confidence < SURE && self.changes() > 1;
         !other.is_understood() || guessed || many && (unsure || self.changes() > other.changes())
+    }
+
+    /// Whether it wants something on, off, open or shut that can be no such thing.
+    pub(super) fn asks_what_cannot_be(&self, scene: &Scene<'_>, lexicon: &Lexicon) -> bool {
+        fn any(entry: &GoalEntry, cannot: &dyn Fn(&GoalEntry) -> bool) -> bool {
+            let inner = |content: &Content| matches!(content, Content::With(entry) if any(entry, cannot));
+            cannot(entry) || entry.contains.iter().any(inner)
+        }
+        let cannot = |entry: &GoalEntry| {
+            let kind =
+                scene.named(&entry.object).map_or(entry.object.as_str(), |object| object.kind.as_str());
+            let lacks = |property: &str, affordance: &str| {
+                entry.is.contains_key(property) && !scene.affords(kind, affordance)
+            };
+            lacks("isToggled", "toggleable") && lexicon.control(kind).is_none() || lacks("isOpen", "openable")
+        };
+        self.decomposition.subtasks.iter().flat_map(|subtask| &subtask.goal).any(|entry| any(entry, &cannot))
     }
 
     /// Takes another reading's place for it, and keeps what it was among the others.

@@ -192,7 +192,7 @@ impl Gist<'_> {
         if doing.act == Act::Fill {
             self.liquid = self.filling(at);
             if self.liquid.is_some() {
-                self.fill();
+                self.fill_what_can_be();
                 return Some(());
             }
         }
@@ -200,6 +200,17 @@ impl Gist<'_> {
         self.said();
         self.acted = true;
         Some(())
+    }
+
+    /// "the plate and the cup filled with water": the cup; where they go is still to come.
+    fn fill_what_can_be(&mut self) {
+        let can = |thing: &Thing| self.affords(thing, "canFillWithLiquid");
+        let last = self.topic.last().filter(|_| !self.topic.iter().all(can)).cloned();
+        let Some(last) = last else { return self.fill() };
+        let (fresh, listing) = (self.fresh, self.listing);
+        let all = std::mem::replace(&mut self.topic, vec![last]);
+        self.fill();
+        (self.fresh, self.listing, self.topic) = (fresh, listing, all);
     }
 
     /// "turn on the tap and fill the kettle": what runs is not to go on running.

@@ -27,6 +27,8 @@ pub struct Thing {
     pub plural: bool,
     /// Whether nothing like it is in the scene.
     pub absent: bool,
+    /// What it is to be full of: "the water filled mug".
+    pub full_of: Option<String>,
 }
 
 /// What was named before.

@@ -36,7 +36,14 @@ impl Gist<'_> {
             self.listing = false;
             return Some(());
         }
-        self.speak_of(at, thing)
+        self.speak_of(at, thing)?;
+        if let Some(liquid) = &thing.full_of {
+            // Where it goes is still to come.
+            let (fresh, listing) = (self.fresh, self.listing);
+            self.saying.filled(std::slice::from_ref(thing), liquid);
+            (self.fresh, self.listing) = (fresh, listing);
+        }
+        Some(())
     }
 
     /// Does to a thing what waits for it, and for those listed behind it.
@@ -173,6 +180,10 @@ impl Gist<'_> {
             && matches!(self.chunks.get(at.wrapping_sub(2)), Some(Chunk::Place(..)))
             && matches!(self.saying.last, Some(Last::Place(_)))
             && match self.chunk(at + 1) {
+                // "with the plate and the bowl"
+                Some(Chunk::Join(true)) if matches!(self.chunk(at + 2), Some(Chunk::Thing(_))) => {
+                    self.ends_behind(at + 2)
+                }
                 None | Some(Chunk::Join(_) | Chunk::But | Chunk::Stop) => {
                     matches!(self.chunk_before(at), Some(Chunk::With(true)))
                         || matches!(&self.chunks[at], Chunk::Thing(thing) if self.is_described(thing))
@@ -205,7 +216,13 @@ impl Gist<'_> {
             let (noun, _) = self.lexicon.noun(&name)?;
             let here = noun.kinds.iter().any(|kind| self.scene.has(kind));
             let words = ["the", name[0], name[1]].map(str::to_owned).to_vec();
-            here.then(|| Thing { words, kinds: noun.kinds.clone(), plural: false, absent: false })
+            here.then(|| Thing {
+                words,
+                kinds: noun.kinds.clone(),
+                plural: false,
+                absent: false,
+                full_of: None,
+            })
         };
         known.find_map(of).unwrap_or_else(|| thing.clone())
     }
@@ -248,7 +265,11 @@ impl Gist<'_> {
         match again {
             Again::First | Again::Last => {
                 let thing = if again == Again::First { self.listed.first() } else { self.listed.last() };
-                let thing = thing.filter(|_| self.listed.len() == 2)?.clone();
+                let thing = thing.filter(|_| self.listed.len() > 1)?.clone();
+                self.put_with_the_rest();
+                if self.fresh && self.topic.len() > 1 {
+                    return None;
+                }
                 self.change_topic(vec![thing]);
                 self.fresh = true;
             }

@@ -22,6 +22,8 @@ pub struct Saying {
     pub said: Vec<String>,
     /// Of what the last sentence is.
     of: Vec<Thing>,
+    /// What was put somewhere last, and where.
+    placed: Option<(Vec<Thing>, Vec<String>)>,
     /// What was named: "a drawer" is "the drawer" from then on.
     known: Vec<Thing>,
     /// What it says.
@@ -34,6 +36,7 @@ impl Saying {
         self.say("put");
         self.name(things, true);
         self.said.extend(place.iter().cloned());
+        self.placed = Some((things.to_vec(), place.to_vec()));
         self.end(things, Last::Place(place.to_vec()));
     }
 
@@ -89,6 +92,16 @@ impl Saying {
             Last::Done(verb) => self.done(things, &verb),
         }
         Some(())
+    }
+
+    /// "put the dishes on the table: the plate and the cup": where they go, if they are some of what was put there.
+    pub fn place_of_them(&self, things: &[Thing]) -> Option<&[String]> {
+        let (put, place) = self.placed.as_ref()?;
+        let kinds = || put.iter().flat_map(|thing| &thing.kinds);
+        let member = |thing: &Thing| {
+            !put.contains(thing) && thing.kinds.first().is_some_and(|kind| kinds().any(|of| of == kind))
+        };
+        (kinds().count() > 1 && things.iter().all(member)).then_some(place)
     }
 
     fn say(&mut self, word: &str) {

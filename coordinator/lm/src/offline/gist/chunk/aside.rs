@@ -151,6 +151,10 @@ impl Chunker<'_> {
             return have.then_some(opens + 2);
         }
         let end = self.mark_after(at);
+        let purpose = self.starts(at, &["so", "that"]) && (at == 0 || self.at(at - 1) == ".");
+        if purpose && !self.orders_in(who, end) {
+            return Some(end - at);
+        }
         let person = WHO.contains(&self.at(who)) || self.thing(who).is_none() && self.is_somebody(who);
         let done = self.at(who).starts_with("you") && self.acts_in(who, end);
         (person && !done && !self.orders_in(who, end)).then_some(end - at)

@@ -165,7 +165,7 @@ impl Chunker<'_> {
         let (noun, _) = self.lexicon.noun(&["faucet"])?;
         let absent = !noun.kinds.iter().any(|kind| self.scene.has(kind));
         let words = vec!["the".to_owned(), "faucet".to_owned()];
-        Some(Thing { words, kinds: noun.kinds.clone(), plural: false, absent })
+        Some(Thing { words, kinds: noun.kinds.clone(), plural: false, absent, full_of: None })
     }
 
     /// "the gizmo should be frobbed": something is asked of what nobody knows.

@@ -42,6 +42,9 @@ impl Chunker<'_> {
     pub(super) fn doing(&self, at: usize, opens: bool) -> Option<(Chunk, usize)> {
         let mut here = self.parser.ahead(0);
         here.position = at;
+        if self.at(at + 1) == "filled" {
+            return None;
+        }
         let (form, verbs, mut length) = here.verbs_here()?;
         let verb: &Verb = verbs.first()?;
         if length > 1
@@ -87,7 +90,7 @@ impl Chunker<'_> {
                     let words = self.words[at..at + length].to_vec();
                     return Some((Chunk::Act(Doing { act: Act::Store, words, form, wants: None }), length));
                 }
-                let somewhere = verb.act == Act::Place && form == VerbForm::Base && opens;
+                let somewhere = verb.act == Act::Place && form == VerbForm::Base && opens && word != "leave";
                 (Chunk::Moves(somewhere.then(|| word.to_owned())), length)
             }
             Act::Examine if opens && form == VerbForm::Base => (Chunk::Hard, length),

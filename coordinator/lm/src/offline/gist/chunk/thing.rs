@@ -17,7 +17,7 @@ impl Chunker<'_> {
     pub(super) fn thing(&self, at: usize) -> Option<(Thing, usize)> {
         let mut words: Vec<String> = Vec::new();
         let mut position = at;
-        let mut plural = false;
+        let (mut plural, mut full_of) = (false, None);
         while position < at + LONGEST_FRONT {
             let bare = position == at;
             if bare && RESTING.contains(&self.at(at)) {
@@ -26,6 +26,7 @@ impl Chunker<'_> {
             let described = self.longest_adjective(position).filter(|&length| length > 1);
             if let Some((noun, several, length)) = self.parser.longest_noun_at(position)
                 && described.is_none()
+                && !(LIQUIDS.contains(&self.at(position)) && self.at(position + 1) == "filled")
             {
                 if LIQUIDS.contains(&self.at(position)) && self.is_liquid(position, bare) {
                     return None;
@@ -44,7 +45,7 @@ impl Chunker<'_> {
                 }
                 return self
                     .named(words, &noun, plural || several, end)
-                    .map(|(thing, end)| (thing, end - at));
+                    .map(|(thing, end)| (Thing { full_of, ..thing }, end - at));
             }
             let word = self.at(position);
             if !["bit", "part", "portion", "section"].contains(&word)
@@ -54,7 +55,16 @@ impl Chunker<'_> {
             {
                 words.push(word.to_owned());
                 let plural = word.ends_with('s');
-                return Some((Thing { words, kinds: Vec::new(), plural, absent: false }, position + 1 - at));
+                return Some((
+                    Thing { words, kinds: Vec::new(), plural, absent: false, full_of: None },
+                    position + 1 - at,
+                ));
+            }
+            // "the water filled mug"
+            if LIQUIDS.contains(&word) && self.at(position + 1) == "filled" {
+                full_of = Some(word.to_owned());
+                position += 2;
+                continue;
             }
             let length = self.front(position, at)?;
             plural |= ["both", "all"].contains(&word) || inflect::number(word).is_some_and(|n| n > 1);
@@ -99,7 +109,7 @@ impl Chunker<'_> {
             end += 1 + length;
         }
         let absent = !noun.kinds.iter().any(|kind| self.scene.has(kind));
-        Some((Thing { words, kinds: noun.kinds.clone(), plural, absent }, end))
+        Some((Thing { words, kinds: noun.kinds.clone(), plural, absent, full_of: None }, end))
     }
 
     /// The longest adjective at a place, in words.
@@ -132,10 +142,6 @@ impl Chunker<'_> {
         if word == "of" && position > start {
             return Some(1);
         }
-        // "the water filled mug"
-        if ["water", "coffee", "wine"].contains(&word) && self.at(position + 1) == "filled" {
-            return Some(2);
-        }
         // "the washed and sliced tomato"
         let state = |at: usize| self.lexicon.adjective(&[self.at(at)]).is_some();
         if word == "and" && position > start && state(position - 1) && state(position + 1) {
@@ -146,7 +152,8 @@ impl Chunker<'_> {
             self.lexicon.is_small(list, &[word])
                 || inflect::singulars(word).iter().any(|one| self.lexicon.is_small(list, &[one]))
         };
-        if ["slices", "measures", "parts"].into_iter().any(listed) && self.at(position + 1) == "of" {
+        let of = self.at(position + 1) == "of" || listed("slices") && self.at(position + 1) == "from";
+        if ["slices", "measures", "parts"].into_iter().any(listed) && of {
             return Some(2);
         }
         if let Some(length) = self.longest_adjective(position) {
