@@ -1,9 +1,11 @@
 //! The embedded default: a semantic parser grounded in the scene, with no model and no network.
 //!
-//! The stages: [`text`] (words and spelling), [`clause`] and [`phrase`] (grammar), [`mention`] (which things
-//! of the scene are meant), [`effect`] (what each verb makes of them), [`situation`] (vague commands), and
-//! [`emit`] (sub-tasks). The knowledge is data ([`lexicon`]); the code knows grammar. Everything is
-//! deterministic, and what is not understood is asked for, never guessed.
+//! The stages: [`text`] (words and spelling), [`remark`] (what is told beside the orders), [`rewrite`] (plainer words
+//! for the same), [`clause`] and [`phrase`] (grammar), [`mention`] (which things of the scene are meant), [`effect`]
+//! (what each verb makes of them), [`situation`] (vague commands), and [`emit`] (sub-tasks). Where the grammar asks,
+//! or is not sure of an instruction of many parts, [`gist`] says it again from its parts alone, and that is read. The
+//! knowledge is data ([`lexicon`]); the code knows grammar. Everything is deterministic, and what is not understood
+//! is asked for, never guessed.
 
 mod clause;
 mod effect;

@@ -276,8 +276,9 @@ impl Chunker<'_> {
         if ["cut", "put", "set"].contains(&self.at(at)) {
             return true;
         }
-        let state = self.lexicon.adjective(&[self.at(at)]).is_some();
-        !state && self.lexicon.verbs(self.at(at)).iter().any(|(form, _, _)| *form == VerbForm::Past)
+        // "is dirty", "is broken" is told
+        let told = self.lexicon.adjective(&[self.at(at)]).is_some_and(|state| state.selects);
+        !told && self.lexicon.verbs(self.at(at)).iter().any(|(form, _, _)| *form == VerbForm::Past)
     }
 
     /// Whether what is told is to be made sure of.
