@@ -101,7 +101,8 @@ impl Remarks<'_> {
         let mut from = 0;
         for index in 0..=self.tokens.len() {
             let mark = self.is_mark(index);
-            if !mark && !(index > from && self.joins(index)) {
+            let ends = mark || index > from && self.joins(index);
+            if !ends {
                 continue;
             }
             if index > from {
@@ -319,10 +320,12 @@ impl Remarks<'_> {
                 remarks.push(words.join(" "));
                 match (kept.last_mut(), mark) {
                     // "the tomato, since it is rotten, in the bin", "could you, when you can, wash the cup"
-                    (Some(last), Some(mark)) if last.text == "," && mark.text == "," => {
-                        if preposition(&[self.at(part.to + 1)]).is_some() || asks {
-                            kept.pop();
-                        }
+                    (Some(last), Some(mark))
+                        if last.text == ","
+                            && mark.text == ","
+                            && (preposition(&[self.at(part.to + 1)]).is_some() || asks) =>
+                    {
+                        kept.pop();
                     }
                     (Some(last), Some(mark)) if last.text == "," => last.clone_from(mark),
                     (Some(last), Some(mark)) if ![",", "."].contains(&last.text.as_str()) => {

@@ -25,10 +25,10 @@ impl Gist<'_> {
             (self.same, self.listing) = (true, true);
             return Some(());
         }
-        if let Some(doing) = self.pending.take() {
-            if self.unapplied || self.listing && !self.opens_another(at) {
-                return self.done_to(at, thing, doing);
-            }
+        if let Some(doing) = self.pending.take()
+            && (self.unapplied || self.listing && !self.opens_another(at))
+        {
+            return self.done_to(at, thing, doing);
         }
         if let Some(leading) = self.leading.take() {
             self.change_topic(vec![thing.clone()]);

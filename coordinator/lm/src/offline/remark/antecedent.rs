@@ -52,7 +52,7 @@ impl Remarks<'_> {
                 && let Some(pronoun) = self.pronoun(part)
             {
                 let joined = Token { text: "and".to_owned(), typed: String::new() };
-                let things = told.drain(..).collect::<Vec<_>>().join(&joined);
+                let things = std::mem::take(&mut told).join(&joined);
                 self.tokens.splice(pronoun..=pronoun, things);
             } else if self.names_a_thing(part) {
                 told.clear();

@@ -331,7 +331,7 @@ impl Said<'_> {
         let verb = self.behind_place(start + length, lexicon);
         let speaker = ["i", "we"].contains(&self.at(start));
         let negated = self.has(verb, &DENIALS);
-        let wished = self.wishes(verb) && !(negated && !self.own_name)
+        let wished = self.wishes(verb) && (!negated || self.own_name)
             || self.has(verb, &["have", "has"]) && self.at(verb + 1) == "to";
         let asked = self.has(verb, &["you", "robots", "robot", "if"]);
         let told = verb < self.words.len()

@@ -169,10 +169,10 @@ impl Rewriting<'_> {
             }
         }
         let not = (index + 2..end).find(|&at| self.at(at) == "not" && self.noun_before(at).is_some());
-        if let Some(not) = not.filter(|&not| self.names_only(not + 1, end) && !self.is_order(not + 1)) {
-            if (index..not).any(|at| self.is_place(at)) {
-                self.say(not, end, &[]);
-            }
+        if let Some(not) = not.filter(|&not| self.names_only(not + 1, end) && !self.is_order(not + 1))
+            && (index..not).any(|at| self.is_place(at))
+        {
+            self.say(not, end, &[]);
         }
     }
 
