@@ -173,7 +173,8 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
             reading = other;
         }
     }
-    if let Some(told) = in_short(&said, lexicon, scene)
+    if reading.leaves_room_for_more(said.len())
+        && let Some(told) = in_short(&said, lexicon, scene)
         && (told.says_more_than(&reading) || reading.asks_what_cannot_be(scene, lexicon))
     {
         reading.give_way_to(told);

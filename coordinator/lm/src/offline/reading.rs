@@ -17,6 +17,9 @@ const SURE_OF_ALL: f64 = 0.96;
 /// What is said in fewer parts than this is read by its grammar, where that does not ask.
 const MANY_PARTS: usize = 3;
 
+/// Nobody says three things in fewer words than this.
+const SHORTEST_OF_MANY: usize = 9;
+
 /// A reading and what is wrong with it.
 pub(super) struct Reading {
     pub(super) decomposition: Decomposition,
@@ -72,6 +75,11 @@ impl Reading {
         }
         let lasting = self.decomposition.subtasks.iter().filter(|subtask| subtask.lasting);
         lasting.flat_map(|subtask| &subtask.goal).map(of).sum()
+    }
+
+    /// Whether a gist of so many words may say more: what is short and sure is all that was said.
+    pub(super) fn leaves_room_for_more(&self, words: usize) -> bool {
+        !self.is_understood() || self.decomposition.confidence < SURE || words >= SHORTEST_OF_MANY
     }
 
     /// Whether a gist is rather to be acted on than another reading: that one asks or is guessed, or it is of many

@@ -1,5 +1,6 @@
 //! The parts a sentence is made of, as far as they can be told one by one: things, places, states, doings.
 
+use std::cell::OnceCell;
 use std::ops::Range;
 
 use super::super::clause::Parser;
@@ -121,12 +122,15 @@ pub struct Chunker<'a> {
     lexicon: &'a Lexicon,
     scene: &'a Scene<'a>,
     parser: Parser<'a>,
+    /// The noun phrases that begin at each place, once they were looked for.
+    things: Vec<OnceCell<Option<(Thing, usize)>>>,
 }
 
 impl<'a> Chunker<'a> {
     /// Of the words of a sentence.
     pub fn new(words: &'a [String], lexicon: &'a Lexicon, scene: &'a Scene<'a>) -> Self {
-        Self { words, lexicon, scene, parser: Parser::new(words, lexicon, scene) }
+        let things = vec![OnceCell::new(); words.len()];
+        Self { words, lexicon, scene, parser: Parser::new(words, lexicon, scene), things }
     }
 
     /// All parts, in their order.

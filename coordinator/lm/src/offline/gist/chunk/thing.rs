@@ -15,6 +15,10 @@ const LONGEST_FRONT: usize = 7;
 impl Chunker<'_> {
     /// A noun phrase and how many words it takes.
     pub(super) fn thing(&self, at: usize) -> Option<(Thing, usize)> {
+        self.things.get(at)?.get_or_init(|| self.find_thing(at)).clone()
+    }
+
+    fn find_thing(&self, at: usize) -> Option<(Thing, usize)> {
         let mut words: Vec<String> = Vec::new();
         let mut position = at;
         let (mut plural, mut full_of) = (false, None);
