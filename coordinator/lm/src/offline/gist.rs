@@ -43,7 +43,7 @@ fn vague_parts(words: &[String], chunks: &[Chunk], spans: &[Range<usize>], lexic
     let mut parts = Vec::new();
     let mut start = 0;
     for end in 0..=chunks.len() {
-        if end < chunks.len() && !matches!(chunks[end], Chunk::Join(_) | Chunk::But | Chunk::Stop) {
+        if end < chunks.len() && !chunks[end].ends_part() {
             continue;
         }
         let first = spans.get(start).map_or("", |span| words[span.start].as_str());
@@ -160,6 +160,16 @@ impl<'a> Gist<'a> {
 
     fn chunk_before(&self, at: usize) -> Option<&'a Chunk> {
         self.chunks.get(at.wrapping_sub(1))
+    }
+
+    /// Whether a part of the sentence ends behind a place.
+    fn ends_behind(&self, at: usize) -> bool {
+        self.chunk(at + 1).is_none_or(Chunk::ends_part)
+    }
+
+    /// Whether a part of the sentence begins at a place.
+    fn opens(&self, at: usize) -> bool {
+        self.chunk_before(at).is_none_or(Chunk::ends_part)
     }
 
     /// Takes in the part at a place; nothing if it cannot be told what it belongs to.
@@ -298,7 +308,7 @@ impl<'a> Gist<'a> {
     /// A word nobody knows where an order would stand, with something to do it to, is an order nobody knows.
     fn other(&mut self, at: usize, word: &str) -> Option<()> {
         if let Some(verb) = self.homeless.clone()
-            && matches!(self.chunk(at + 1), None | Some(Chunk::Join(_) | Chunk::But | Chunk::Stop))
+            && self.ends_behind(at)
             && self.has_particle(&verb, word)
             && !self.topic.is_empty()
         {
@@ -307,7 +317,7 @@ impl<'a> Gist<'a> {
             self.said();
             return Some(());
         }
-        let opens = matches!(self.chunk_before(at), None | Some(Chunk::Stop | Chunk::But | Chunk::Join(_)));
+        let opens = self.opens(at);
         let object = match self.chunk(at + 1) {
             Some(Chunk::Thing(thing)) => !thing.absent && is_determiner(&thing.words[0]),
             Some(Chunk::Again(_)) => true,
@@ -317,7 +327,7 @@ impl<'a> Gist<'a> {
         self.listing &= opens || word.ends_with("ly");
         let known = is_function_word(word)
             || !self.lexicon.verbs(word).is_empty()
-            || ["namely", "including", "yes", "gimme"].contains(&word)
+            || ["namely", "including", "yes"].contains(&word)
             || ["polite", "asides", "sequence", "parallel", "modifiers", "real"]
                 .iter()
                 .any(|list| self.lexicon.is_small(list, &[word]));

@@ -161,25 +161,25 @@ fn check_robots(decomposition: &mut Decomposition, team: &[crate::RobotView]) {
 
 /// The best reading of an instruction: without its remarks, or with them where nothing is understood without.
 fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
-    let Plain { words, said, others, repairs, remarks, typed, cut } = plain(instruction, lexicon, scene);
-    let mut reading = read_words(&words, instruction, lexicon, scene);
-    reading.remark(&remarks);
-    for words in others {
-        if reading.is_understood() {
-            break;
-        }
-        let other = read_words(&words, instruction, lexicon, scene);
-        if other.is_understood() {
+    let plain = plain(instruction, lexicon, scene);
+    let mut reading = read_words(&plain.words, instruction, lexicon, scene);
+    reading.remark(&plain.remarks);
+    if !reading.is_understood() {
+        let mut others =
+            plain.others(lexicon, scene).map(|words| read_words(&words, instruction, lexicon, scene));
+        if let Some(other) = others.find(Reading::is_understood) {
             reading = other;
         }
     }
+    let said = plain.said(lexicon);
     if reading.leaves_room_for_more(said.len())
         && let Some(told) = in_short(&said, lexicon, scene)
         && (told.says_more_than(&reading) || reading.asks_what_cannot_be(scene, lexicon))
     {
         reading.give_way_to(told);
-        reading.remark(&remarks);
+        reading.remark(&plain.remarks);
     }
+    let Plain { repairs, typed, cut, .. } = plain;
     if cut < instruction.len() {
         reading.problems.push("the instruction is too long; only its beginning was read".to_owned());
         reading.decomposition.confidence *= 0.5;

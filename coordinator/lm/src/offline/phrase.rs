@@ -362,7 +362,7 @@ impl Parser<'_> {
         !self.scene.kinds().any(|kind| noun.kinds.iter().any(|k| k == kind))
     }
 
-    fn is_slices(&self, word: &str) -> bool {
+    pub(super) fn is_slices(&self, word: &str) -> bool {
         inflect::singulars(word).iter().any(|s| self.lexicon.is_small("slices", &[s.as_str()]))
             || self.lexicon.is_small("slices", &[word])
     }

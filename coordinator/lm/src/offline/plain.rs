@@ -2,18 +2,19 @@
 
 use super::lexicon::Lexicon;
 use super::scene::Scene;
+use super::text::Token;
 use super::{remark, rewrite, slang, text};
 
 /// An instruction in plainer words.
 pub struct Plain {
     /// The words.
     pub words: Vec<String>,
-    /// The words as they were said.
-    pub said: Vec<String>,
     /// What was taken for a slip of the pen, in words.
     pub repairs: Vec<String>,
-    /// The same with things named that pronouns stand for, and as it was said, remarks and all, where that differs.
-    pub others: Vec<Vec<String>>,
+    /// What was said without the remarks.
+    left: Vec<Token>,
+    /// What was said, remarks and all.
+    whole: Vec<Token>,
     /// What was taken for remarks.
     pub remarks: Vec<String>,
     /// Mended words as they were typed, and as they are read.
@@ -38,21 +39,32 @@ pub fn plain(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Plain {
         .map(|token| (token.typed.clone(), token.text.clone()))
         .collect();
     let (left, remarks) = remark::set_apart(&tokens, lexicon, scene);
-    let plainer = |tokens| {
-        let tokens = rewrite::rewritten(tokens, lexicon);
-        text::without_asides(tokens.into_iter().map(|token| token.text).collect(), lexicon)
-    };
-    let said = rewrite::written_out(left.clone(), lexicon).into_iter().map(|token| token.text).collect();
-    let named = remark::told_apart(&left, lexicon, scene);
-    let named = (named != left).then(|| plainer(named));
-    let whole = (left != tokens).then(|| plainer(tokens));
-    Plain {
-        words: plainer(left),
-        said,
-        others: named.into_iter().chain(whole).collect(),
-        repairs,
-        remarks,
-        typed,
-        cut,
+    let words = plainer(left.clone(), lexicon);
+    Plain { words, left, whole: tokens, repairs, remarks, typed, cut }
+}
+
+impl Plain {
+    /// The words as they were said, without the remarks.
+    pub fn said(&self, lexicon: &Lexicon) -> Vec<String> {
+        rewrite::written_out(self.left.clone(), lexicon).into_iter().map(|token| token.text).collect()
     }
+
+    /// The same with things named that pronouns stand for, and as it was said, remarks and all, where that differs;
+    /// each is put in plainer words only when it is asked for.
+    pub fn others<'a>(
+        &'a self,
+        lexicon: &'a Lexicon,
+        scene: &'a Scene<'_>,
+    ) -> impl Iterator<Item = Vec<String>> + 'a {
+        let named =
+            || Some(remark::told_apart(&self.left, lexicon, scene)).filter(|named| *named != self.left);
+        let whole = || Some(self.whole.clone()).filter(|whole| *whole != self.left);
+        let others = std::iter::once_with(named).chain(std::iter::once_with(whole));
+        others.flatten().map(|tokens| plainer(tokens, lexicon))
+    }
+}
+
+fn plainer(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<String> {
+    let tokens = rewrite::rewritten(tokens, lexicon);
+    text::without_asides(tokens.into_iter().map(|token| token.text).collect(), lexicon)
 }

@@ -6,7 +6,7 @@
 use super::clause::is_going;
 use super::lexicon::{LONGEST, Lexicon};
 use super::scene::Scene;
-use super::syntax::{is_determiner, preposition};
+use super::syntax::{LIQUIDS, is_determiner, preposition};
 use super::text::Token;
 use super::{inflect, situation};
 use telling::Said;
@@ -158,7 +158,7 @@ impl Remarks<'_> {
     fn own_name(&self, index: usize) -> bool {
         self.thing(index).is_some_and(|length| {
             let words: Vec<&str> = (index..index + length).map(|at| self.at(at)).collect();
-            let liquid = ["water", "coffee", "wine"].contains(&words[0]) && length == 1;
+            let liquid = LIQUIDS.contains(&words[0]) && length == 1;
             !liquid && self.lexicon.noun(&words).is_none_or(|(noun, _)| !noun.class)
         })
     }

@@ -6,6 +6,9 @@ mod preposition;
 
 pub use preposition::preposition;
 
+/// Liquids that a vessel may get.
+pub const LIQUIDS: [&str; 3] = ["water", "coffee", "wine"];
+
 /// How much of what a noun names is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
@@ -94,7 +97,7 @@ impl Phrase {
     pub fn liquid(&self) -> Option<&str> {
         match &self.head {
             Head::Liquid(liquid) => Some(liquid),
-            Head::Noun(noun) => ["water", "wine", "coffee"].into_iter().find(|liquid| noun.word == *liquid),
+            Head::Noun(noun) => LIQUIDS.into_iter().find(|liquid| noun.word == *liquid),
             _ => None,
         }
     }

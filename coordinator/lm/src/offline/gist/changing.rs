@@ -167,8 +167,7 @@ impl Gist<'_> {
         let mut sentence = said.take_while(|chunk| !matches!(chunk, Chunk::Stop));
         let listed = matches!(self.chunk_before(at), Some(Chunk::Join(_) | Chunk::But))
             && sentence.any(|chunk| matches!(chunk, Chunk::Wish));
-        let opens = matches!(self.chunk_before(at), None | Some(Chunk::Stop | Chunk::But | Chunk::Join(_)));
-        matches!(before, Some(Chunk::Wish)) || listed || self.moved || opens && self.fresh
+        matches!(before, Some(Chunk::Wish)) || listed || self.moved || self.opens(at) && self.fresh
     }
 
     /// "a nice soak", "closing up now: …"

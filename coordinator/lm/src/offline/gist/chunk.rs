@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::super::clause::Parser;
 use super::super::inflect::VerbForm;
-use super::super::lexicon::{Act, Lexicon, Settings};
+use super::super::lexicon::{Act, LONGEST, Lexicon, Settings};
 use super::super::scene::Scene;
 use super::super::syntax::Relation;
 
@@ -116,6 +116,13 @@ pub enum Chunk {
     Other(String),
 }
 
+impl Chunk {
+    /// Whether a part of the sentence ends with it, and another begins behind it.
+    pub fn ends_part(&self) -> bool {
+        matches!(self, Self::Join(_) | Self::But | Self::Stop)
+    }
+}
+
 /// Tells the parts.
 pub struct Chunker<'a> {
     words: &'a [String],
@@ -140,7 +147,8 @@ impl<'a> Chunker<'a> {
         let mut at = 0;
         while at < self.words.len() {
             let opens = found.last().is_none_or(|last| {
-                matches!(last, Chunk::Stop | Chunk::Join(_) | Chunk::But | Chunk::Wish)
+                last.ends_part()
+                    || matches!(last, Chunk::Wish)
                     || matches!(last, Chunk::Other(word) if ["please", "you", "kindly"].contains(&word.as_str()))
             });
             let (chunk, length) = match self.aside(at, opens) {
@@ -168,7 +176,7 @@ impl<'a> Chunker<'a> {
     }
 
     fn rest(&self, at: usize) -> Vec<&'a str> {
-        self.words.iter().skip(at).take(6).map(String::as_str).collect()
+        self.words.iter().skip(at).take(LONGEST).map(String::as_str).collect()
     }
 
     fn chunk(&self, at: usize, opens: bool, before: Option<&Chunk>) -> (Chunk, usize) {

@@ -132,11 +132,6 @@ impl Gist<'_> {
         with || matches!(self.chunk_before(at), Some(Chunk::Beside))
     }
 
-    /// Whether a part of the sentence ends behind a place.
-    fn ends_behind(&self, at: usize) -> bool {
-        matches!(self.chunk(at + 1), None | Some(Chunk::Join(_) | Chunk::But | Chunk::Stop))
-    }
-
     /// "put the card in the box, then the keys": what nothing was said of goes where the last went.
     pub(super) fn leave_topic(&mut self) -> Option<()> {
         if !self.fresh {
@@ -184,7 +179,7 @@ impl Gist<'_> {
                 Some(Chunk::Join(true)) if matches!(self.chunk(at + 2), Some(Chunk::Thing(_))) => {
                     self.ends_behind(at + 2)
                 }
-                None | Some(Chunk::Join(_) | Chunk::But | Chunk::Stop) => {
+                behind if behind.is_none_or(Chunk::ends_part) => {
                     matches!(self.chunk_before(at), Some(Chunk::With(true)))
                         || matches!(&self.chunks[at], Chunk::Thing(thing) if self.is_described(thing))
                 }

@@ -149,10 +149,7 @@ impl Gist<'_> {
             )
         };
         let things = matches!(next.iter().find(|chunk| !said(chunk)), Some(Chunk::Thing(_)));
-        let opens = matches!(
-            self.chunk_before(at),
-            None | Some(Chunk::Stop | Chunk::Join(_) | Chunk::But | Chunk::Moves(_))
-        );
+        let opens = self.opens(at) || matches!(self.chunk_before(at), Some(Chunk::Moves(_)));
         // "into the box, left open, go …"
         let first = matches!(self.chunk_before(at), None | Some(Chunk::Stop));
         let until_thing = next.iter().take_while(|chunk| !matches!(chunk, Chunk::Thing(_) | Chunk::Stop));

@@ -20,29 +20,12 @@ const WISHES: [&str; 20] = [
 /// What says no.
 const DENIALS: [&str; 6] = ["dont", "doesnt", "not", "never", "didnt", "wont"];
 
-/// What may stand before what is told.
-const JOINS: [&str; 20] = [
-    "and",
-    "but",
-    "so",
-    "because",
-    "since",
-    "as",
-    "otherwise",
-    "that",
-    "or",
-    "then",
-    "when",
-    "once",
-    "before",
-    "after",
-    "while",
-    "until",
-    "till",
-    "whenever",
-    "though",
-    "where",
-];
+/// What may stand before what is told, beside the subordinators.
+const JOINS: [&str; 7] = ["and", "but", "so", "that", "or", "then", "though"];
+
+fn joins(word: &str) -> bool {
+    JOINS.contains(&word) || super::SUBORDINATORS.contains(&word)
+}
 
 /// Somebody, by no name.
 const PERSONS: [&str; 14] = [
@@ -87,7 +70,7 @@ pub(super) fn spelled_out(tokens: &[Token]) -> Vec<String> {
         }
         let next = tokens.get(index + 1).map_or("", |next| next.text.as_str());
         let typed = token.typed.to_lowercase().replace('\u{2019}', "'");
-        let opens = index == 0 || JOINS.contains(&tokens[index - 1].text.as_str());
+        let opens = index == 0 || joins(&tokens[index - 1].text);
         let said: &[&str] = match token.text.as_str() {
             "im" => &["i", "am"],
             "ive" => &["i", "have"],
@@ -190,7 +173,7 @@ impl Said<'_> {
     /// How many words join it to what is said before: "that" in "that is how I like it" does not.
     fn joins(&self) -> usize {
         let that = |at: usize| self.at(at) == "that" && AUXILIARIES.contains(&self.at(at + 1));
-        (0..self.words.len()).take_while(|&at| JOINS.contains(&self.at(at)) && !that(at)).count()
+        (0..self.words.len()).take_while(|&at| joins(self.at(at)) && !that(at)).count()
     }
 
     /// Whether something is wished for, from a place on.

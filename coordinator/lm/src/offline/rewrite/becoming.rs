@@ -1,9 +1,8 @@
 //! What something becomes, said by "gets", "goes" and "has", as what it should be.
 
 use super::Rewriting;
-use super::liquids::LIQUIDS;
 use crate::offline::clause::is_going;
-use crate::offline::syntax::is_determiner;
+use crate::offline::syntax::{LIQUIDS, is_determiner};
 
 impl Rewriting<'_> {
     /// "the bread gets sliced", "each cup gets water", "the light goes off", "all of it needs to go into the pot".

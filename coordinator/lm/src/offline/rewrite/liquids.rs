@@ -2,10 +2,7 @@
 //! under the tap until it is full".
 
 use super::Rewriting;
-use crate::offline::syntax::is_determiner;
-
-/// Liquids that a vessel may get.
-pub(super) const LIQUIDS: [&str; 3] = ["water", "coffee", "wine"];
+use crate::offline::syntax::{LIQUIDS, is_determiner};
 
 const TAPS: [&str; 2] = ["tap", "faucet"];
 

@@ -1,10 +1,9 @@
 //! How something is said, put plainly: contractions, "can" after a noun, "is to be", "there is …", states of lists.
 
 use super::super::inflect::VerbForm;
-use super::liquids::LIQUIDS;
 use super::{LONGEST_ASIDE, Rewriting, SHALL};
 use crate::offline::clause::is_going;
-use crate::offline::syntax::{is_determiner, preposition};
+use crate::offline::syntax::{LIQUIDS, is_determiner, preposition};
 
 /// Contractions with "not", apart.
 const DENIALS: [(&str, &str); 10] = [

@@ -3,10 +3,9 @@
 
 use std::ops::Range;
 
-use super::liquids::LIQUIDS;
 use super::{Rewriting, SHALL};
 use crate::offline::clause::is_going;
-use crate::offline::syntax::is_determiner;
+use crate::offline::syntax::{LIQUIDS, is_determiner};
 
 impl Rewriting<'_> {
     /// All of them.

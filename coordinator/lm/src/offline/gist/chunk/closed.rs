@@ -33,17 +33,15 @@ const DENIES: [&str; 8] = ["not", "no", "never", "nor", "neither", "without", "d
 
 const JOINS: [&str; 7] = ["and", "plus", "while", "whereas", "whilst", "so", "also"];
 
-const TELLS: [&[&str]; 21] = [
+const TELLS: [&[&str]; 19] = [
     &["that", "is"],
     &["that", "are"],
     &["that", "was"],
     &["that", "were"],
     &["which", "is"],
     &["which", "are"],
-    &["thats"],
     &["there", "is"],
     &["there", "are"],
-    &["theres"],
     &["you", "find"],
     &["you", "will", "find"],
     &["youll", "find"],
@@ -163,7 +161,7 @@ impl Chunker<'_> {
     /// "water running": the tap is.
     fn tap(&self) -> Option<Thing> {
         let (noun, _) = self.lexicon.noun(&["faucet"])?;
-        let absent = !noun.kinds.iter().any(|kind| self.scene.has(kind));
+        let absent = self.parser.is_absent(noun);
         let words = vec!["the".to_owned(), "faucet".to_owned()];
         Some(Thing { words, kinds: noun.kinds.clone(), plural: false, absent, full_of: None })
     }

@@ -2,12 +2,10 @@
 
 use super::super::super::inflect;
 use super::super::super::lexicon::Noun;
-use super::super::super::syntax::{is_determiner, is_function_word, preposition};
+use super::super::super::syntax::{LIQUIDS, is_determiner, is_function_word, preposition};
 use super::super::super::text::POSSESSIVE;
 use super::closed::RESTING;
 use super::{Chunker, Thing};
-
-const LIQUIDS: [&str; 3] = ["water", "coffee", "wine"];
 
 /// A noun phrase is no longer than this before its noun, in words.
 const LONGEST_FRONT: usize = 7;
@@ -53,7 +51,7 @@ impl Chunker<'_> {
             }
             let word = self.at(position);
             if !["bit", "part", "portion", "section"].contains(&word)
-                && self.is_slices(word)
+                && self.parser.is_slices(word)
                 && self.at(position + 1) != "of"
                 && (!bare || word.ends_with('s'))
             {
@@ -83,8 +81,8 @@ impl Chunker<'_> {
     /// "the boy's mug": where the thing itself begins, behind whose it is.
     fn whose_it_is(&self, of: &Noun, end: usize) -> Option<usize> {
         let (noun, _, _) = self.parser.longest_noun_at(end + 1).filter(|_| self.at(end) == POSSESSIVE)?;
-        let carried = |noun: &Noun| noun.kinds.iter().any(|kind| self.scene.affords(kind, "pickupable"));
-        let here = |noun: &Noun| noun.kinds.iter().any(|kind| self.scene.has(kind));
+        let carried = |noun: &Noun| self.parser.has_affordance(noun, "pickupable");
+        let here = |noun: &Noun| !self.parser.is_absent(noun);
         // "the coffee machine's spout" is at the machine.
         let itself = carried(&noun) || here(&noun) && carried(of) || !here(of);
         itself.then_some(end + 1)
@@ -101,8 +99,7 @@ impl Chunker<'_> {
         if self.at(end) == "time" {
             return None;
         }
-        let sliceable = noun.kinds.iter().any(|kind| self.scene.affords(kind, "sliceable"));
-        if sliceable && self.is_slices(self.at(end)) {
+        if self.parser.has_affordance(noun, "sliceable") && self.parser.is_slices(self.at(end)) {
             words.push(self.at(end).to_owned());
             plural |= self.at(end).ends_with('s');
             end += 1;
@@ -112,7 +109,7 @@ impl Chunker<'_> {
         {
             end += 1 + length;
         }
-        let absent = !noun.kinds.iter().any(|kind| self.scene.has(kind));
+        let absent = self.parser.is_absent(noun);
         Some((Thing { words, kinds: noun.kinds.clone(), plural, absent, full_of: None }, end))
     }
 
@@ -122,11 +119,6 @@ impl Chunker<'_> {
         (1..=3.min(rest.len()))
             .rev()
             .find(|&n| self.lexicon.adjective(&rest[..n]).is_some() && preposition(&rest[..1]).is_none())
-    }
-
-    fn is_slices(&self, word: &str) -> bool {
-        self.lexicon.is_small("slices", &[word])
-            || inflect::singulars(word).iter().any(|one| self.lexicon.is_small("slices", &[one]))
     }
 
     /// How many words at a place belong to what stands before a noun; 0 for one that nobody knows.
@@ -156,7 +148,8 @@ impl Chunker<'_> {
             self.lexicon.is_small(list, &[word])
                 || inflect::singulars(word).iter().any(|one| self.lexicon.is_small(list, &[one]))
         };
-        let of = self.at(position + 1) == "of" || listed("slices") && self.at(position + 1) == "from";
+        let of =
+            self.at(position + 1) == "of" || self.parser.is_slices(word) && self.at(position + 1) == "from";
         if ["slices", "measures", "parts"].into_iter().any(listed) && of {
             return Some(2);
         }
