@@ -127,6 +127,9 @@ impl<'a> Discourse<'a> {
             Head::Pronoun { plural: true } if ["each", "all"].contains(&first_word(&phrase.text)) => {
                 self.all_of_them(wants)
             }
+            Head::Pronoun { .. } if phrase.text == "there" && self.last_place().is_some() => {
+                self.last_place().into_iter().collect()
+            }
             Head::Pronoun { .. } if is_all_of_it(&phrase.text) => self.all_of_it(wants),
             Head::Pronoun { plural } => {
                 let found = self.pronoun(*plural, wants);

@@ -5,6 +5,7 @@ use super::lexicon::{LONGEST, Lexicon};
 use super::syntax::{is_determiner, preposition};
 use super::text::Token;
 
+mod accompaniment;
 mod afterthoughts;
 mod arrangement;
 mod asides;
@@ -47,6 +48,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
     text.slips();
+    text.accompaniments();
     text.afterthoughts();
     text.comings();
     text.places_after_places();

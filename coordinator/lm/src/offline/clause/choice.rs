@@ -125,7 +125,9 @@ impl<'a> Parser<'a> {
             return false;
         }
         self.position += length + 1;
-        let it = Phrase::bare(Head::Pronoun { plural: false }, "there");
+        // "in there" is in what was spoken of, "there" where it went.
+        let text = if length > 0 { "in there" } else { "there" };
+        let it = Phrase::bare(Head::Pronoun { plural: false }, text);
         clause.places.push(Place::new(Relation::In, "in", it));
         true
     }

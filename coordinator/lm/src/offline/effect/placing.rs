@@ -300,11 +300,19 @@ impl<'a> Interpreter<'_, 'a> {
 
     /// The place that something else was put in last: "fill the cup and put it there too".
     fn place_spoken_of(&self, objects: &[usize]) -> Option<usize> {
-        let places = self.discourse.spoken.iter().rev().flat_map(|spoken| &spoken.places);
-        places.copied().find(|place| {
-            let kind = self.discourse.entities[*place].kind();
-            !objects.contains(place) && self.discourse.scene.affords(kind, "receptacle")
-        })
+        let scene = self.discourse.scene;
+        let kind = |entity: usize| self.discourse.entities[entity].kind();
+        let takes = |place: &usize| {
+            !objects.contains(place)
+                && objects.iter().all(|&object| scene.accepts(kind(*place), kind(object)))
+        };
+        // "fill the pot and add the potato": to what was spoken of, where that did not go to a place that takes it.
+        let spoken = || self.discourse.spoken.iter().rev();
+        let nearest =
+            spoken().find_map(|spoken| spoken.places.iter().chain(&spoken.objects).find(|e| takes(e)));
+        let receptacle =
+            |place: &&usize| !objects.contains(place) && scene.affords(kind(**place), "receptacle");
+        nearest.or_else(|| spoken().flat_map(|spoken| &spoken.places).find(receptacle)).copied()
     }
 
     /// "everything in the fridge": what the fridge takes.

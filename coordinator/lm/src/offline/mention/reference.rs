@@ -193,6 +193,15 @@ impl Discourse<'_> {
         found
     }
 
+    /// "there": where something was put last, if what was spoken of last was put somewhere.
+    pub(super) fn last_place(&self) -> Option<usize> {
+        let last = self.spoken.iter().rev().find(|s| !s.objects.is_empty() || !s.places.is_empty())?;
+        match last.places.as_slice() {
+            [place] if last.placed => Some(*place),
+            _ => None,
+        }
+    }
+
     pub(super) fn pronoun(&mut self, plural: bool, wants: Option<&str>) -> Vec<usize> {
         let fits = |this: &Self, group: &[usize]| {
             !group.is_empty()

@@ -1,7 +1,8 @@
 //! Several noun phrases: what is joined by "and" and commas, and where such a list ends.
 
 use super::super::clause::{Parser, is_going};
-use super::super::syntax::{Head, Phrase, Quantity, Relation, preposition};
+use super::super::inflect;
+use super::super::syntax::{Head, Phrase, Quantity, Relation, is_determiner, preposition};
 use super::DEEPEST;
 
 impl Parser<'_> {
@@ -45,13 +46,15 @@ impl Parser<'_> {
                     }
                     // "all the cabinets and drawers"
                     let all = found.last().is_some_and(|last| last.quantity == Quantity::All);
-                    if all && phrase.quantity == Quantity::Plural {
+                    let each = found.last().is_some_and(is_each_of) && has_no_determiner(&phrase);
+                    if all && (phrase.quantity == Quantity::Plural || each) {
                         phrase.quantity = Quantity::All;
                     }
-                    // "both the plate and the bowl": one of each.
+                    // "both the plate and the bowl": one of each; "both plates and the bowl": two plates.
                     if let Some(first) = found.last_mut()
                         && first.text.starts_with("both ")
                         && self.words[start] == "and"
+                        && !is_plural(first)
                     {
                         first.quantity = Quantity::One;
                     }
@@ -140,4 +143,18 @@ pub(in crate::offline) fn is_one_of(phrase: &Phrase, class: &Phrase) -> bool {
         }
         _ => false,
     }
+}
+
+/// "every cabinet and drawer": each goes for both.
+fn is_each_of(phrase: &Phrase) -> bool {
+    ["every ", "each "].iter().any(|each| phrase.text.starts_with(each))
+}
+
+fn has_no_determiner(phrase: &Phrase) -> bool {
+    let noun = matches!(phrase.head, Head::Noun(_));
+    noun && phrase.text.split(' ').next().is_none_or(|first| !is_determiner(first))
+}
+
+fn is_plural(phrase: &Phrase) -> bool {
+    phrase.text.rsplit(' ').next().is_some_and(|last| !inflect::singulars(last).is_empty())
 }

@@ -59,7 +59,16 @@ impl Rewriting<'_> {
                 && (is_determiner(next) || ["it", "them"].contains(&next))
                 && self.noun_before(index).is_some()
             {
-                self.say(index, index + 1, &["should", "be", "beside"]);
+                // "joins the book in the box": both are there.
+                let there = (index + 3..index + 6).find(|&at| {
+                    ["in", "on", "inside"].contains(&self.at(at)) && self.noun_before(at).is_some()
+                });
+                if let Some(there) = there.filter(|&there| is_determiner(self.at(there + 1))) {
+                    self.say(there, there, &["should", "be"]);
+                    self.say(index, index + 1, &["and"]);
+                } else {
+                    self.say(index, index + 1, &["should", "be", "beside"]);
+                }
             }
         }
     }

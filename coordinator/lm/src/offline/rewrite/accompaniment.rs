@@ -1,0 +1,193 @@
+//! What comes along with an order: "with the sponge left in the sink", "with the drawers all closed", "with the mug
+//! underneath", "next to a plate of toast", "the desk lamp as the only light on".
+
+use super::{LONGEST_ASIDE, Rewriting, SHALL};
+use crate::offline::clause::is_going;
+use crate::offline::syntax::is_determiner;
+
+/// How something is where it stays.
+const STAYING: [&str; 12] = [
+    "left", "kept", "staying", "standing", "sitting", "lying", "waiting", "resting", "placed", "put",
+    "stored", "ready",
+];
+
+/// Inward, as where something goes is said.
+const INWARD: [&str; 5] = ["in", "on", "inside", "onto", "into"];
+
+impl Rewriting<'_> {
+    /// All of them.
+    pub(super) fn accompaniments(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            if self.at(index) == "with" {
+                let _ = self.gathered_in_it(index)
+                    || self.with_left(index)
+                    || self.with_all_so(index)
+                    || self.with_underneath(index);
+            }
+            self.beside_another(index);
+            self.only_light(index);
+            self.the_mixture(index);
+            index += 1;
+        }
+    }
+
+    /// "…, with the sponge left in the sink": put it there.
+    fn with_left(&mut self, index: usize) -> bool {
+        let end = self.sentence_end(index);
+        let left = (index + 2..end).find(|&at| STAYING.contains(&self.at(at)));
+        let Some(left) = left.filter(|&left| self.names_only(index + 1, left)) else { return false };
+        let there = INWARD.contains(&self.at(left + 1)) && is_determiner(self.at(left + 2));
+        let comma = index > 1 && self.at(index - 1) == ",";
+        if there && comma {
+            self.say(left, left + 1, &[]);
+            self.say(index - 1, index + 1, &[".", "put"]);
+        }
+        there && comma
+    }
+
+    /// "With the pen and the pencil gathered in it, the bowl goes …": put them in the bowl.
+    fn gathered_in_it(&mut self, index: usize) -> bool {
+        let opens = index == 0 || self.at(index - 1) == ".";
+        let end = self.next_mark(index, &["."]);
+        let it = (index + 3..end).find(|&at| {
+            ["it", "them"].contains(&self.at(at))
+                && INWARD.contains(&self.at(at - 1))
+                && self.at(at + 1) == ","
+        });
+        let Some(it) = it.filter(|_| opens) else { return false };
+        let placed = usize::from(
+            !self.names_only(index + 1, it - 1)
+                && (self.is_participle(it - 2) || STAYING.contains(&self.at(it - 2))),
+        );
+        let told = (it + 3..end.min(it + LONGEST_ASIDE)).find(|&at| {
+            self.noun_before(at).is_some() && (SHALL.contains(&self.at(at)) || is_going(self.at(at)))
+        });
+        let things = it - 1 - placed;
+        if let Some(told) = told.filter(|_| self.names_only(index + 1, things)) {
+            let vessel = self.words(it + 2..told);
+            self.say(it + 1, it + 2, &["."]);
+            self.say_all(it, it + 1, &vessel);
+            self.say(things, things + placed, &[]);
+            self.say(index, index + 1, &["put"]);
+        }
+        told.is_some()
+    }
+
+    /// "…, with the fridge, drawers and cabinets all closed": they should be.
+    fn with_all_so(&mut self, index: usize) -> bool {
+        let end = self.sentence_end(index);
+        let state = (index + 2..end).find(|&at| {
+            let ends = self.is_mark(at + 1)
+                || ["again", "afterwards", "afterward", "behind", "too", "at", "after"]
+                    .contains(&self.at(at + 1));
+            ends && self.lexicon.adjective(&[self.at(at)]).is_some()
+        });
+        let Some(state) = state else { return false };
+        let all = usize::from(["all", "both", "each"].contains(&self.at(state - 1)));
+        let things = index + 1..state - all;
+        let several = things.clone().any(|at| self.at(at) == "and");
+        if !several || index == 0 || !self.names_only(things.start, things.end) {
+            return false;
+        }
+        let mut said = vec![".".to_owned()];
+        for at in things.clone() {
+            // "drawers and cabinets": all of them.
+            let bare = at == things.start || ["and", ","].contains(&self.at(at - 1));
+            if bare && !is_determiner(self.at(at)) && !["and", ","].contains(&self.at(at)) {
+                said.push("the".to_owned());
+            }
+            said.push(self.at(at).to_owned());
+        }
+        said.extend(["should".to_owned(), "be".to_owned()]);
+        let comma = usize::from(self.at(index - 1) == ",");
+        self.say_all(index - comma, state, &said);
+        true
+    }
+
+    /// "start the machine with the mug underneath": and put the mug under it.
+    fn with_underneath(&mut self, index: usize) -> bool {
+        let end = self.next_mark(index, &[",", "."]);
+        let under = (index + 2..end).find(|&at| {
+            let alone = ["underneath", "beneath", "below", "under"].contains(&self.at(at));
+            let it = usize::from(self.at(at + 1) == "it");
+            alone && (self.is_mark(at + 1 + it) || self.at(at + 1 + it) == "and")
+        });
+        let Some(under) = under.filter(|&under| index > 0 && self.names_only(index + 1, under)) else {
+            return false;
+        };
+        let it = usize::from(self.at(under + 1) == "it");
+        self.say(under, under + 1 + it, &["under", "it"]);
+        let comma = usize::from(self.at(index - 1) == ",");
+        self.say(index - comma, index + 1, &["and", "put"]);
+        true
+    }
+
+    /// "serve it on the counter next to a plate of toast": the plate goes there too.
+    fn beside_another(&mut self, index: usize) {
+        const BESIDE: [&[&str]; 6] = [
+            &["next", "to"],
+            &["beside"],
+            &["alongside"],
+            &["together", "with"],
+            &["along", "with"],
+            &["with"],
+        ];
+        let Some(length) = self.one_of(index, &BESIDE) else { return };
+        let another = ["a", "an", "some"].contains(&self.at(index + length));
+        let start = self.clause_start(index);
+        let order = (start..index).find(|&at| self.is_order(at));
+        let place =
+            order.and_then(|order| (order + 2..index).find(|&at| ["on", "onto"].contains(&self.at(at))));
+        let Some(place) = place.filter(|&place| another && self.names_only(place + 1, index)) else { return };
+        let end = self.next_mark(index, &[",", "."]);
+        let end = (index..end).find(|&at| self.at(at) == "and" && self.is_order(at + 1)).unwrap_or(end);
+        if (index + length..end).any(|at| self.is_place(at) && self.at(at) != "with") {
+            return;
+        }
+        let mut company = vec!["and".to_owned()];
+        company.extend(self.words(index + length..end));
+        self.say(index, end, &[]);
+        self.say_all(place, place, &company);
+    }
+
+    /// "leave the desk lamp as the only light on": it should be on, and no other.
+    fn only_light(&mut self, index: usize) {
+        let only = self.at(index) == "as" && self.starts(index + 1, &["the", "only"]);
+        let light = ["light", "lamp", "one", "source"].contains(&self.at(index + 3));
+        let start = self.clause_start(index);
+        let order = (start..index).find(|&at| ["leave", "keep", "have"].contains(&self.at(at)));
+        let Some(order) = order.filter(|&order| only && light && self.names_only(order + 1, index)) else {
+            return;
+        };
+        let end = self.next_mark(index, &[",", "."]);
+        self.say(index, end, &["and", "turn", "off", "all", "other", "lights"]);
+        self.say(order, order + 1, &["turn", "on"]);
+    }
+
+    /// "mix all of it in a bowl and serve the salad": the bowl.
+    fn the_mixture(&mut self, index: usize) {
+        const MIXTURES: [&str; 5] = ["salad", "mixture", "mix", "dish", "meal"];
+        let named =
+            MIXTURES.contains(&self.at(index + 1)) && ["the", "this", "that"].contains(&self.at(index));
+        let behind = self.is_mark(index + 2) || self.is_place(index + 2) || self.at(index + 2) == "and";
+        let ordered = index > 1 && self.is_order(index - 1);
+        if !(named && behind && ordered) {
+            return;
+        }
+        let vessel = (2..index).rev().find(|&at| {
+            ["in", "into", "on", "onto"].contains(&self.at(at - 2))
+                && is_determiner(self.at(at - 1))
+                && ["bowl", "plate", "pot", "pan", "cup", "mug"].contains(&self.at(at))
+        });
+        if let Some(vessel) = vessel {
+            let vessel = self.at(vessel).to_owned();
+            self.say(index + 1, index + 2, &[&vessel]);
+        }
+    }
+
+    /// Where the sentence ends.
+    fn sentence_end(&self, index: usize) -> usize {
+        self.next_mark(index, &["."])
+    }
+}
