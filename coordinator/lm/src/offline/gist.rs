@@ -271,6 +271,7 @@ impl<'a> Gist<'a> {
         {
             self.front = Some(at_thing(&["on".to_owned()], table));
             (self.fresh, self.homeless) = (false, None);
+            self.change_topic(Vec::new());
         }
     }
 

@@ -19,15 +19,8 @@ use super::spelling::Spelling;
 use super::trigger::{Said, Trigger, TriggerWords};
 use crate::LmError;
 
-/// The files of a lexicon and those that are built in.
-const FILES: [(&str, &str); 6] = [
-    ("nouns.toml", include_str!("../../../../domains/household/lexicon/nouns.toml")),
-    ("senses.toml", include_str!("../../../../domains/household/lexicon/senses.toml")),
-    ("uses.toml", include_str!("../../../../domains/household/lexicon/uses.toml")),
-    ("verbs.toml", include_str!("../../../../domains/household/lexicon/verbs.toml")),
-    ("words.toml", include_str!("../../../../domains/household/lexicon/words.toml")),
-    ("situations.toml", include_str!("../../../../domains/household/lexicon/situations.toml")),
-];
+/// The list of words that are no slips of the pen, and mean nothing here.
+pub const DICTIONARY: &str = "dictionary";
 
 /// The longest phrase the lexicon looks for, in words.
 pub const LONGEST: usize = 6;
@@ -247,7 +240,9 @@ impl Lexicon {
         }
         for (list, words) in file.small {
             for word in words {
-                self.learn(&word);
+                if list != DICTIONARY {
+                    self.learn(&word);
+                }
                 self.small.entry(list.clone()).or_default().insert(squash(&word));
             }
         }
@@ -472,6 +467,7 @@ impl Lexicon {
 
 mod filing;
 
+use filing::FILES;
 pub use filing::{split_camel_case, squash};
 
 #[cfg(test)]

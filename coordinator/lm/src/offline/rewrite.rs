@@ -10,6 +10,7 @@ mod afterthoughts;
 mod arrangement;
 mod asides;
 mod becoming;
+mod colloquial;
 mod coming;
 mod conditions;
 mod exceptions;
@@ -48,6 +49,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
     text.slips();
+    text.colloquialisms();
     text.accompaniments();
     text.afterthoughts();
     text.comings();

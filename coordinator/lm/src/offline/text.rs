@@ -1,7 +1,7 @@
 //! From characters to words: case, punctuation, contractions, and spelling repaired against what the scene
 //! and the lexicon know.
 
-use super::lexicon::Lexicon;
+use super::lexicon::{DICTIONARY, Lexicon};
 use super::scene::Scene;
 
 /// The longest instruction read, in bytes.
@@ -122,7 +122,8 @@ pub fn repair_spelling(tokens: &mut [Token], lexicon: &Lexicon, scene: &Scene) -
 
 /// The word that a strange one is taken for, if exactly one known word is near.
 fn repair(word: &str, lexicon: &Lexicon, scene: &Scene) -> Option<String> {
-    if word.len() < 4 || !word.chars().all(|c| c.is_ascii_alphabetic()) || is_known(word, lexicon, scene) {
+    let strange = word.len() >= 4 && word.chars().all(|c| c.is_ascii_alphabetic());
+    if !strange || is_known(word, lexicon, scene) || lexicon.is_small(DICTIONARY, &[word]) {
         return None;
     }
     // "putt": a letter struck twice.

@@ -117,7 +117,7 @@ impl Gist<'_> {
         if self.same {
             self.of_it_alone(thing, Self::as_before)?;
             self.listing = true;
-        } else if let Some(front) = self.front.clone() {
+        } else if let Some(front) = self.front.clone().filter(|_| self.affords(thing, "pickupable")) {
             self.saying.put(std::slice::from_ref(thing), &front);
             (self.fresh, self.listing) = (false, true);
         }

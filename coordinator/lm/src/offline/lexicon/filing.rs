@@ -1,4 +1,15 @@
-//! How phrases and the names of types are filed.
+//! Where the words come from, and how phrases and the names of types are filed.
+
+/// The files of a lexicon and those that are built in.
+pub const FILES: [(&str, &str); 7] = [
+    ("nouns.toml", include_str!("../../../../../domains/household/lexicon/nouns.toml")),
+    ("senses.toml", include_str!("../../../../../domains/household/lexicon/senses.toml")),
+    ("uses.toml", include_str!("../../../../../domains/household/lexicon/uses.toml")),
+    ("verbs.toml", include_str!("../../../../../domains/household/lexicon/verbs.toml")),
+    ("words.toml", include_str!("../../../../../domains/household/lexicon/words.toml")),
+    ("english.toml", include_str!("../../../../../domains/household/lexicon/english.toml")),
+    ("situations.toml", include_str!("../../../../../domains/household/lexicon/situations.toml")),
+];
 
 /// A phrase's key: its letters and digits alone, in lower case.
 pub fn squash(phrase: &str) -> String {

@@ -181,7 +181,13 @@ impl Rewriting<'_> {
             let part = self.clause_start(index);
             let first = (part..index)
                 .find(|&at| !["and", "then", "also", "please", "could", "you"].contains(&self.at(at)));
-            let said = (part..index).any(|at| SHALL[..3].contains(&self.at(at)))
+            // "the paper is trash, and the pen goes in the drawer"
+            let told = first.is_some_and(|first| {
+                let is = (first..index).find(|&at| ["is", "are"].contains(&self.at(at)));
+                is.is_some_and(|is| is > first && self.names_only(first, is))
+            });
+            let said = told
+                || (part..index).any(|at| SHALL[..3].contains(&self.at(at)))
                 || first.is_some_and(|first| self.is_order(first));
             let sure = (start..index).any(|at| ["sure", "ensure", "that"].contains(&self.at(at)));
             let opens = (start..index).any(|at| OPENS.contains(&self.at(at)));

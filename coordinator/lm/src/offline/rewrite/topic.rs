@@ -96,6 +96,7 @@ impl Rewriting<'_> {
                 self.say(index, index + 3, &[]);
                 continue;
             }
+            self.named_behind(index);
             let opens = (index..self.tokens.len().min(index + LONGEST_ASIDE + 4))
                 .find(|&at| self.is_opening(at))
                 .filter(|_| length > 0);
@@ -116,6 +117,28 @@ impl Rewriting<'_> {
                 index = first + list.len();
             }
             index += 1;
+        }
+    }
+
+    /// "two things need chilling, the cup and the mug", "everything small goes in the box: the pen and the card": the
+    /// things themselves.
+    fn named_behind(&mut self, index: usize) {
+        let things = ["things", "items", "objects"].contains(&self.at(index + 1))
+            && crate::offline::inflect::number(self.at(index)).is_some();
+        let whole = self.at(index) == "everything" && self.begins(index);
+        let end = self.next_mark(index, &[","]).min(
+            (index..self.tokens.len()).find(|&at| self.tokens[at].text == ".").unwrap_or(self.tokens.len()),
+        );
+        let Some(mark) = self.tokens.get(end).map(|token| token.typed.clone()) else { return };
+        let close = self.next_mark(end + 1, &["."]);
+        let told = (index + 1..end)
+            .find(|&at| is_going(self.at(at)) || ["need", "needs", "should", "must"].contains(&self.at(at)));
+        let Some(told) = told.filter(|_| things || whole && mark == ":") else { return };
+        let alone = things && told == index + 2 || whole && told > index + 1 && told - index <= 5;
+        if alone && [",", ":"].contains(&mark.as_str()) && self.names_only(end + 1, close) {
+            let list = self.words(end + 1..close);
+            self.say(end, close, &[]);
+            self.say_all(index, told, &list);
         }
     }
 
