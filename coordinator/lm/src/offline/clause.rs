@@ -244,6 +244,7 @@ impl<'a> Parser<'a> {
             clause.verbs = self.putting();
         }
         self.understood_verb(&mut clause, start);
+        self.place_of_many(&mut clause, start);
         clause.text = self.text_between(start, self.position);
         (!clause.text.is_empty()).then_some(clause)
     }

@@ -483,6 +483,7 @@ fn about_the_same(a: &Change, b: &Change) -> bool {
 
 mod changing;
 pub(super) mod forbid;
+mod goals;
 mod going;
 mod holding;
 mod placing;

@@ -425,11 +425,14 @@ impl<'a> Discourse<'a> {
     }
 
     /// Whether an object is where a phrase says, as far as it can be told.
-    fn is_at(&self, object: &ObjectView, place: &Place) -> bool {
+    pub fn is_at(&self, object: &ObjectView, place: &Place) -> bool {
         match &place.phrase.head {
             Head::Noun(noun) => {
-                !noun.kinds.iter().any(|kind| self.scene.has(kind))
-                    || self.scene.lies_in(object, &|parent| noun.kinds.contains(&parent.kind))
+                // A table is no counter where there is one.
+                let mut here = noun.kinds.iter().filter(|kind| self.scene.has(kind)).peekable();
+                let most = if noun.word == "counter" { 1 } else { noun.kinds.len() };
+                here.peek().is_none()
+                    || here.take(most).any(|kind| self.scene.lies_in(object, &|parent| parent.kind == *kind))
             }
             Head::Named(name) => self.scene.lies_in(object, &|parent| parent.name == *name),
             _ => true,

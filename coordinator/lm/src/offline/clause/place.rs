@@ -261,6 +261,25 @@ impl<'a> Parser<'a> {
             self.position = start;
         }
     }
+
+    /// "all dishes on the counter should be clean": those that are there; nothing is put anywhere.
+    pub(super) fn place_of_many(&self, clause: &mut Clause<'a>, start: usize) {
+        const SHALL: [&str; 6] = ["should", "must", "shall", "need", "needs", "gets"];
+        let said = self.words.get(start..self.position).unwrap_or_default();
+        let Some(shall) = said.iter().position(|word| SHALL.contains(&word.as_str())) else { return };
+        let is_place = |word: &String| {
+            preposition(&[word]).is_some_and(|(r, _)| matches!(r, Relation::In | Relation::To))
+        };
+        let only_before = said[..shall].iter().any(is_place) && !said[shall..].iter().skip(2).any(is_place);
+        let several = |phrase: &Phrase| matches!(phrase.quantity, Quantity::All | Quantity::Plural);
+        let many = only_before && clause.objects.last().is_some_and(several);
+        if let ([place], true) = (clause.places.as_slice(), many)
+            && place.relation == Relation::In
+        {
+            let place = clause.places.remove(0);
+            clause.objects.iter_mut().filter(|phrase| several(phrase)).for_each(|p| p.at.push(place.clone()));
+        }
+    }
 }
 
 /// "on the sink", "on the edge of the sink": beside the basin, on what that is let into.

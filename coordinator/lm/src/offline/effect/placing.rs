@@ -191,63 +191,6 @@ impl<'a> Interpreter<'_, 'a> {
         named.map(|phrase| self.discourse.mention(phrase, &[], Some("receptacle"))).unwrap_or_default()
     }
 
-    /// The goal, the movable receptacle it is reached in, and the places that say where things were.
-    pub(super) fn sort_places(&self, clause: &Clause<'a>) -> (Option<Place>, Option<Place>, Vec<Place>) {
-        let scene = self.discourse.scene;
-        let is_there = |place: &Place| match &place.phrase.head {
-            Head::Noun(noun) => {
-                noun.kinds.iter().any(|kind| scene.affords(kind, "receptacle"))
-                    || !noun.kinds.iter().any(|kind| scene.has(kind))
-            }
-            Head::Named(_) | Head::Pronoun { .. } => true,
-            Head::Unknown(_) => true,
-            _ => false,
-        };
-        let goals: Vec<usize> = (0..clause.places.len())
-            .filter(|&i| {
-                matches!(clause.places[i].relation, Relation::In | Relation::To)
-                    && is_there(&clause.places[i])
-            })
-            .collect();
-        let Some(&last) = goals.last() else {
-            let at = clause.places.iter().filter(|p| p.relation == Relation::From).cloned().collect();
-            return (None, None, at);
-        };
-        let to = goals.iter().rev().find(|&&i| clause.places[i].relation == Relation::To).copied();
-        let movable = |i: usize| {
-            matches!(&clause.places[i].phrase.head, Head::Noun(noun)
-                if noun.kinds.iter().any(|k| scene.affords(k, "pickupable") && scene.affords(k, "receptacle")))
-        };
-        let relation = |i: usize| clause.places[i].relation;
-        let compartment = |i: usize| {
-            matches!(&clause.places[i].phrase.head, Head::Noun(noun)
-            if noun.kinds.iter().find(|k| scene.has(k)).or(noun.kinds.first()).is_some_and(|k| {
-                self.discourse.lexicon.is_small("compartments", &[&k.to_lowercase()])
-            }))
-        };
-        // "on the top shelf inside the fridge": a part of the fridge.
-        let shelves_of_its_own = |i: usize| {
-            matches!(&clause.places[i].phrase.head, Head::Noun(noun)
-                if noun.kinds.first().is_some_and(|k| scene.affords(k, "isColdSource")))
-        };
-        let (goal, inner) = match goals.as_slice() {
-            [.., a, b] if movable(*a) && !movable(*b) => (*b, Some(*a)),
-            [a, b] if compartment(*a) && shelves_of_its_own(*b) => (*b, None),
-            [a, b] if shelves_of_its_own(*a) && compartment(*b) => (*a, None),
-            [a, b] if compartment(*a) && !compartment(*b) && relation(*b) == Relation::In => (*a, None),
-            // "in a cabinet over the sink"
-            [a, b] if compartment(*a) && clause.places[*b].over => (*a, None),
-            _ => (to.unwrap_or(last), None),
-        };
-        let at = (0..clause.places.len())
-            .filter(|&i| i != goal && Some(i) != inner)
-            .filter(|&i| matches!(clause.places[i].relation, Relation::In | Relation::From))
-            .filter(|&i| i < goal || clause.places[i].relation == Relation::From)
-            .map(|i| clause.places[i].clone())
-            .collect();
-        (Some(clause.places[goal].clone()), inner.map(|i| clause.places[i].clone()), at)
-    }
-
     /// The objects end in the place.
     pub(super) fn put(&mut self, clause: &Clause<'a>, at: &[Place], goal: &Place) -> Spoken {
         let mut objects = self.objects(clause, at, Some("pickupable"));

@@ -22,7 +22,8 @@ impl Gist<'_> {
             self.named = Some(thing.clone());
         }
         if relation == Relation::From || self.is_no_goal(at, relation, place) {
-            return Some(());
+            // "the dishes in the sink": not all of them.
+            return (!self.tells_which_of_many(at, relation, place)).then_some(());
         }
         let (named, thing) = self.place_meant(relation, preposition, place)?;
         if self.fills_it(thing.as_ref()) {
@@ -67,6 +68,21 @@ impl Gist<'_> {
             self.homeless = None;
         }
         ignored
+    }
+
+    /// Whether a place behind things tells some of them from others.
+    fn tells_which_of_many(&self, at: usize, relation: Relation, place: &Where) -> bool {
+        const CLASS: usize = 3;
+        let many = |thing: &Thing| {
+            thing.kinds.len() > CLASS
+                || relation != Relation::From
+                    && (thing.plural || ["every", "each", "any"].contains(&thing.words[0].as_str()))
+        };
+        let before = match self.chunk_before(at) {
+            Some(Chunk::Tells) => self.chunks.get(at.wrapping_sub(2)),
+            before => before,
+        };
+        matches!(place, Where::At(_)) && matches!(before, Some(Chunk::Thing(thing)) if many(thing))
     }
 
     /// The place in words, and the thing that it is, if it is one.

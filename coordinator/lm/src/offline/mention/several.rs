@@ -113,12 +113,23 @@ impl Discourse<'_> {
             Quantity::One if !uncountable || phrase.indefinite || phrase.states.contains_key("isSliced") => {
                 vec![self.one(kinds.to_vec(), phrase, at)]
             }
-            _ => self.every(kinds, phrase, at),
+            _ => self.every(&self.kinds_there(kinds, phrase, at), phrase, at),
         };
         let names: Vec<&str> = found.iter().map(|&e| self.entities[e].kind()).collect();
         let text = format!("\"{}\" here means {}", phrase.text, names.join(", "));
         self.assume(text, 0.97);
         found
+    }
+
+    /// "all dishes on the counter": of the types those that are there, if any is.
+    fn kinds_there(&self, kinds: &[String], phrase: &Phrase, at: &[Place]) -> Vec<String> {
+        let places: Vec<&Place> = phrase.at.iter().chain(at).collect();
+        let is_there = |kind: &&String| {
+            let objects = self.scene.of_kind(kind);
+            objects.iter().any(|object| places.iter().all(|place| self.is_at(object, place)))
+        };
+        let there: Vec<String> = kinds.iter().filter(is_there).cloned().collect();
+        if there.is_empty() { kinds.to_vec() } else { there }
     }
 
     /// So many objects, of as many types as possible.

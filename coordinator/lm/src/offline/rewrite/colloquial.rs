@@ -71,6 +71,7 @@ impl Rewriting<'_> {
             self.left_where_it_is_found(index);
             self.plate_them(index);
             self.made_from(index);
+            self.before_a_meal(index);
             index += 1;
         }
     }
@@ -128,6 +129,22 @@ impl Rewriting<'_> {
             let end = (index..end).find(|&at| self.at(at) == "and" && self.is_order(at + 1)).unwrap_or(end);
             let opens = index == 0 || self.is_mark(index - 1);
             self.say(index, end + usize::from(opens && self.at(end) == ","), &[]);
+        }
+    }
+
+    /// "the wine needs chilling before dinner": only when.
+    fn before_a_meal(&mut self, index: usize) {
+        const MEALS: [&str; 8] =
+            ["dinner", "lunch", "breakfast", "supper", "bed", "bedtime", "school", "work"];
+        let when = ["before", "after"].contains(&self.at(index)) && MEALS.contains(&self.at(index + 1));
+        let start = self.clause_start(index);
+        let told = (start..index).any(|at| {
+            let things = at > 0 && ["things", "items", "they", "it"].contains(&self.at(at - 1));
+            ["need", "needs", "should", "must"].contains(&self.at(at))
+                && (things || self.noun_before(at).is_some())
+        });
+        if when && told && self.is_mark(index + 2) {
+            self.say(index, index + 2, &[]);
         }
     }
 
@@ -296,7 +313,8 @@ impl Rewriting<'_> {
         let shall = (index + 4..index + 7).find(|&at| self.noun_before(at).is_some());
         let told = shall.is_some_and(|at| SHALL[..3].contains(&self.at(at)) || is_going(self.at(at)));
         if left && place && told && index > 0 && self.noun_before(index).is_some() {
-            self.say(index, index + 1, &[]);
+            let many = self.at(index - 1).ends_with('s');
+            self.say(index, index + 1, &["that", if many { "are" } else { "is" }]);
         }
     }
 

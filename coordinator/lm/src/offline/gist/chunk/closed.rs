@@ -206,6 +206,7 @@ impl Chunker<'_> {
             "go" | "goes" => Chunk::Wish,
             "itself" => Chunk::Which,
             "holding" | "containing" | "carrying" if at > 0 && self.at(at - 1) != "." => Chunk::Holds,
+            "loaded" | "stocked" if next == "with" => Chunk::Hard,
             "see" => Chunk::Moves(None),
             "one" if self.starts(at + 1, &["of", "them"]) => Chunk::Hard,
             "which" if at > 0 && self.one_of(at, &TELLS).is_none() => Chunk::Which,
@@ -238,6 +239,9 @@ impl Chunker<'_> {
         if ["that", "which"].contains(&word) && stands.contains(&next) {
             return Some((Chunk::Tells, 2));
         }
+        if self.lies_there(at) {
+            return Some((Chunk::Tells, 1));
+        }
         let length = self.one_of(at, &TELLS)?;
         if ["is", "are", "was", "were"].contains(&word) && length == 1 && self.thing(at + 1).is_some() {
             // "supper is the egg"
@@ -246,6 +250,15 @@ impl Chunker<'_> {
         let is = length == 1 && ["is", "are"].contains(&word);
         let wished = is && (self.is_past(at + 1) || self.is_made_sure(at));
         Some((if wished { Chunk::Wish } else { Chunk::Tells }, length))
+    }
+
+    /// "the dishes left in the sink must be …": which of them.
+    fn lies_there(&self, at: usize) -> bool {
+        let lies = ["left", "lying", "standing", "sitting", "found", "stored", "sat"].contains(&self.at(at));
+        let named = at > 0 && !is_function_word(self.at(at - 1)) && !",.".contains(self.at(at - 1));
+        let place = self.place(at + 1, None).filter(|(chunk, _)| matches!(chunk, Chunk::Place(..)));
+        let wished = |at: usize| WISHES[..3].contains(&self.at(at)) || is_going(self.at(at));
+        lies && named && place.is_some_and(|(_, length)| wished(at + 1 + length))
     }
 
     /// "has left", "put": how many words report what somebody did.
