@@ -156,6 +156,10 @@ impl<'a> Discourse<'a> {
                 self.entities[entity].noun.clone_from(&noun.word);
             }
             self.entities[entity].asked.extend(phrase.states.clone());
+            if wants == Some("pickupable") && self.is_to_be_full(entity, phrase) {
+                self.assume(format!("\"{}\" is filled with water", phrase.text), 0.9);
+                self.entities[entity].asked.extend(filled("water"));
+            }
             if let Some(liquid) = phrase.with.iter().find_map(Phrase::liquid)
                 && self.scene.affords(self.entities[entity].kind(), "canFillWithLiquid")
             {
@@ -290,7 +294,7 @@ impl<'a> Discourse<'a> {
         kinds.retain(|kind| !except.contains(kind.as_str()));
         if noun.class && phrase.other {
             // "the rest of the dishes": without those spoken of.
-            kinds.retain(|kind| !self.entities.iter().any(|entity| entity.kind() == kind.as_str()));
+            kinds = self.without_those_spoken_of(kinds);
         }
         if noun.class {
             return self.class(noun, &kinds, phrase, at);

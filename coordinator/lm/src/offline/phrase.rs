@@ -390,7 +390,13 @@ impl Parser<'_> {
             if preposition(&rest[..length]).is_some() || rest[0] == "out" {
                 continue;
             }
-            let target = if adjective.selects { &mut phrase.selects } else { &mut phrase.states };
+            // "put a burning candle on the counter": one that is to burn.
+            let before = self.position.checked_sub(2).map_or("", |at| self.words[at].as_str());
+            let lit = self.wants_place
+                && phrase.indefinite
+                && preposition(&[before]).is_none()
+                && adjective.set.contains_key("isToggled");
+            let target = if adjective.selects && !lit { &mut phrase.selects } else { &mut phrase.states };
             target.extend(adjective.set.clone());
             self.position += length;
             if self.peek() == Some("and")

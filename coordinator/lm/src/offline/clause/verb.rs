@@ -1,7 +1,7 @@
 //! Verbs: which one stands here, with which particle, and whether it begins a clause.
 
 use super::super::inflect::{self, VerbForm};
-use super::super::lexicon::{Act, Noun, Verb};
+use super::super::lexicon::{Act, DICTIONARY, Noun, Verb};
 use super::super::syntax::{is_determiner, is_function_word, preposition};
 use super::Parser;
 
@@ -216,7 +216,8 @@ impl<'a> Parser<'a> {
         let (meant, verbs) = self.lexicon.near_verb(word)?;
         // "head a potato": a word, but none that fits; so it is one for what is said most.
         let slip = is_determiner(next) && self.lexicon.is_small("common", &[meant]);
-        if word != "was" && self.lexicon.vocabulary().contains(word) && !slip {
+        let known = self.lexicon.vocabulary().contains(word) || self.lexicon.is_small(DICTIONARY, &[word]);
+        if word != "was" && known && !slip {
             return None;
         }
         self.choices.push(format!("read \"{word}\" as \"{meant}\""));

@@ -52,6 +52,7 @@ impl<'a> Interpreter<'_, 'a> {
         {
             self.stay_where_cut(clause, verb, &changed);
         }
+        self.stay_where_it_was_cooked(clause, verb, &changed);
         if next.is_none() {
             self.stay_where_it_was_said_to_be(clause, verb, &changed);
         }
@@ -81,9 +82,13 @@ impl<'a> Interpreter<'_, 'a> {
     pub(super) fn vessel_spoken_of(&self) -> Option<usize> {
         let discourse = &self.discourse;
         let holds = |&e: &usize| discourse.scene.affords(discourse.entities[e].kind(), "canFillWithLiquid");
-        let mut spoken =
-            discourse.spoken.iter().rev().flat_map(|spoken| spoken.places.iter().chain(&spoken.objects));
-        spoken.find(|entity| holds(entity)).copied()
+        // "the plate, the bowl and a cup, and pour water": what one drinks from.
+        let drinks = |e: &usize| ["Cup", "Mug"].contains(&discourse.entities[*e].kind());
+        let of = |spoken: &'_ Spoken| {
+            let named = || spoken.places.iter().chain(&spoken.objects).filter(|entity| holds(entity));
+            named().find(|entity| drinks(entity)).or_else(|| named().next()).copied()
+        };
+        discourse.spoken.iter().rev().find_map(of)
     }
 
     /// "put the potato in the pot and add water": to the pot.

@@ -104,6 +104,10 @@ impl<'a> Interpreter<'_, 'a> {
                     places.push(place);
                 }
                 None if goes_on || clause.back || clause.verb_text.ends_with(" down") => {}
+                None if self.is_served_as_it_is(clause, entity) => {
+                    self.discourse.assume(format!("\"{}\": it stays where it was put", clause.text), 0.95);
+                    self.spoke = true;
+                }
                 None => {
                     let text = self.discourse.entities[entity].text.clone();
                     self.discourse.problem(format!("it is not said where \"{text}\" goes"), 0.3);
@@ -111,6 +115,26 @@ impl<'a> Interpreter<'_, 'a> {
             }
         }
         Spoken { objects, placed: !places.is_empty(), places, ..Spoken::default() }
+    }
+
+    /// "put the slices in the bowl and serve them": where they were put.
+    fn is_served_as_it_is(&self, clause: &Clause<'a>, entity: usize) -> bool {
+        const SERVES: [&str; 9] = [
+            "serve",
+            "present",
+            "arrange",
+            "mix",
+            "combine",
+            "display",
+            "gather",
+            "mix together",
+            "assemble",
+        ];
+        let placed = |fact: &super::Fact| {
+            fact.entity == entity && matches!(fact.change, Change::Inside(_))
+                || fact.change == Change::Inside(entity)
+        };
+        SERVES.contains(&clause.verb_text.as_str()) && self.facts.iter().any(placed)
     }
 
     /// "throw away the bottle on the counter": from there.

@@ -47,4 +47,34 @@ impl<'a> Interpreter<'_, 'a> {
             }
         }
     }
+
+    /// "fry the egg in the pan", "crack it in the bowl": it is in there when that is done.
+    pub(super) fn stay_where_it_was_cooked(&mut self, clause: &Clause<'a>, verb: &Verb, objects: &[usize]) {
+        let cracks = verb.set.get("isBroken") == Some(&crate::offline::yes());
+        if verb.act != Act::Cook && !cracks {
+            return;
+        }
+        let scene = self.discourse.scene;
+        let vessel = |kind: &String| scene.affords(kind, "receptacle") && scene.affords(kind, "pickupable");
+        let named = |place: &&Place| match &place.phrase.head {
+            Head::Noun(noun) => noun.kinds.iter().any(vessel),
+            Head::Pronoun { plural } => !plural,
+            _ => false,
+        };
+        let Some(place) = clause.places.iter().filter(|place| place.relation == Relation::In).find(named)
+        else {
+            return;
+        };
+        let places = self.discourse.mention(&place.phrase, &[], Some("receptacle"));
+        let Some(&place) = places.first() else { return };
+        let home = self.discourse.entities[place].kind().to_owned();
+        let fits = |this: &Self, entity: usize| {
+            entity != place && this.discourse.scene.accepts(&home, this.discourse.entities[entity].kind())
+        };
+        for &entity in objects.iter().filter(|_| vessel(&home)) {
+            if fits(self, entity) {
+                self.put_in(entity, place);
+            }
+        }
+    }
 }

@@ -1,7 +1,9 @@
 //! What a thing can be: types that go together, states it can take, what switches it.
 
 use super::super::lexicon::{Settings, squash};
+use super::super::syntax::Phrase;
 use super::{Discourse, Which};
+use crate::ObjectView;
 
 impl Discourse<'_> {
     /// A thing of a type, or all of the type, that a situation speaks of.
@@ -143,5 +145,16 @@ impl Discourse<'_> {
             self.assume(format!("cooking the {kind} means heating it"), 0.97);
         }
         states
+    }
+
+    /// "put a full cup on the table" where no cup is full: it is asked for.
+    pub(super) fn is_to_be_full(&self, entity: usize, phrase: &Phrase) -> bool {
+        let kind = self.entities[entity].kind();
+        let full = "isFilledWithLiquid";
+        let is_so = |object: &&ObjectView| object.states.iter().any(|state| state == full);
+        phrase.selects.get(full) == Some(&super::super::yes())
+            && phrase.with.iter().all(|with| with.liquid().is_none())
+            && self.scene.affords(kind, "canFillWithLiquid")
+            && !self.scene.of_kind(kind).iter().any(is_so)
     }
 }

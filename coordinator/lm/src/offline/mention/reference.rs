@@ -193,11 +193,10 @@ impl Discourse<'_> {
         found
     }
 
-    /// "there": where something was put last, if what was spoken of last was put somewhere.
+    /// "there": where something was put last.
     pub(super) fn last_place(&self) -> Option<usize> {
-        let last = self.spoken.iter().rev().find(|s| !s.objects.is_empty() || !s.places.is_empty())?;
-        match last.places.as_slice() {
-            [place] if last.placed => Some(*place),
+        match self.spoken.iter().rev().find(|spoken| spoken.placed)?.places.as_slice() {
+            [place] => Some(*place),
             _ => None,
         }
     }

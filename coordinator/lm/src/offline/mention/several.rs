@@ -121,6 +121,21 @@ impl Discourse<'_> {
         found
     }
 
+    /// "the rest of the dishes": without those spoken of; where all were, without those spoken of last.
+    pub(super) fn without_those_spoken_of(&self, kinds: Vec<String>) -> Vec<String> {
+        let left = |spoken: &dyn Fn(&String) -> bool| -> Vec<String> {
+            kinds.iter().filter(|kind| !spoken(kind)).cloned().collect()
+        };
+        let rest = left(&|kind| self.entities.iter().any(|entity| entity.kind() == kind.as_str()));
+        if !rest.is_empty() {
+            return rest;
+        }
+        let fewer = |objects: &Vec<usize>| !objects.is_empty() && objects.len() < kinds.len();
+        let last = self.spoken.iter().rev().map(|spoken| &spoken.objects).find(|objects| fewer(objects));
+        let Some(last) = last else { return rest };
+        left(&|kind| last.iter().any(|&entity| self.entities[entity].kind() == kind.as_str()))
+    }
+
     /// "all dishes on the counter": of the types those that are there, if any is.
     fn kinds_there(&self, kinds: &[String], phrase: &Phrase, at: &[Place]) -> Vec<String> {
         let places: Vec<&Place> = phrase.at.iter().chain(at).collect();

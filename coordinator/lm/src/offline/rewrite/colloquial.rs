@@ -72,6 +72,12 @@ impl Rewriting<'_> {
             self.plate_them(index);
             self.made_from(index);
             self.before_a_meal(index);
+            self.plate_at_the_table(index);
+            self.each_of_them_so(index);
+            self.too_much(index);
+            self.needed_there(index);
+            self.dark_room(index);
+            self.about_the_exception(index);
             index += 1;
         }
     }
@@ -351,6 +357,111 @@ impl Rewriting<'_> {
             plain.extend(self.words(from + 1..end));
             plain.extend(self.words(vessel..from));
             self.say_all(index, end, &plain);
+        }
+    }
+
+    /// "on a plate at the table": the plate is on the table.
+    fn plate_at_the_table(&mut self, index: usize) {
+        let vessel = ["plate", "bowl", "mug", "cup", "pan", "pot", "box"];
+        let held =
+            index > 2 && vessel.contains(&self.at(index - 1)) && ["on", "in"].contains(&self.at(index - 3));
+        let noun = (index + 3..index + 5).find(|&at| self.noun_before(at).is_some() && !self.is_part(at));
+        let table = noun.is_some_and(|end| ["table", "desk", "counter"].contains(&self.at(end - 1)));
+        if self.at(index) == "at" && held && table && is_determiner(self.at(index + 1)) {
+            self.say(index, index + 1, &["on"]);
+        }
+    }
+
+    /// "the bowl, the mug and the cup, each of them clean": they should be.
+    fn each_of_them_so(&mut self, index: usize) {
+        let each =
+            ["each", "all", "both"].contains(&self.at(index)) && index > 0 && self.at(index - 1) == ",";
+        let of = match (self.at(index + 1), self.at(index + 2)) {
+            ("of", "them" | "these") => 3,
+            ("one" | "piece", _) => 2,
+            _ => 1,
+        };
+        let freshly = usize::from(["freshly", "nicely", "properly"].contains(&self.at(index + of)));
+        let state = index + of + freshly;
+        let known = self.lexicon.adjective(&[self.at(state)]).is_some() && self.is_mark(state + 1);
+        let listed = self.noun_before(index.wrapping_sub(1)).is_some();
+        if each && known && listed {
+            self.say(index - 1, state, &[".", "they", "should", "be"]);
+        }
+    }
+
+    /// "too much junk on my desk: the phone goes …": why.
+    fn too_much(&mut self, index: usize) {
+        let opens = index == 0 || self.at(index - 1) == ".";
+        let much = match (self.at(index), self.at(index + 1)) {
+            ("too" | "so", "much" | "many") => true,
+            ("such" | "what", "a") => true,
+            _ => false,
+        };
+        let end = self.next_mark(index, &[",", "."]);
+        let colon = self.tokens.get(end).is_some_and(|token| token.typed == ":");
+        if opens && much && colon {
+            self.say(index, end + 1, &[]);
+        }
+    }
+
+    /// "he works at the desk so he needs the pen there": put it on the desk.
+    fn needed_there(&mut self, index: usize) {
+        let needs = ["needs", "need", "wants", "want"].contains(&self.at(index));
+        let end = self.next_mark(index, &["."]);
+        let there = (index + 2..end).find(|&at| self.at(at) == "there");
+        let who = ["he", "she", "i", "we", "they", "you"].contains(&self.at(index.wrapping_sub(1)));
+        let Some(there) = there
+            .filter(|&there| needs && who && self.names_only(index + 1, there) && self.is_mark(there + 1))
+        else {
+            return;
+        };
+        let start = self.sentence_start(index);
+        let place = (start..index)
+            .rev()
+            .find(|&at| ["at", "on", "from", "in"].contains(&self.at(at)) && is_determiner(self.at(at + 1)));
+        let ends = place.and_then(|at| (at + 3..at + 6).find(|&end| self.noun_before(end).is_some()));
+        if let (Some(place), Some(ends)) = (place, ends) {
+            let mut said = vec![if self.at(place) == "in" { "in" } else { "on" }.to_owned()];
+            said.extend(self.words(place + 1..ends));
+            self.say_all(there, there + 1, &said);
+            self.say(start, index + 1, &["put"]);
+        }
+    }
+
+    /// "… and finally a dark kitchen", "do without the lamp", "the lamp to shine": lights off, off, on.
+    fn dark_room(&mut self, index: usize) {
+        let dark = self.at(index) == "a" && self.at(index + 1) == "dark";
+        let room = self.lexicon.is_small("rooms", &[self.at(index + 2)]);
+        let without = self.starts(index, &["do", "without"]);
+        let shine = ["shine", "glow", "burn"].contains(&self.at(index + 1)) && self.at(index) == "to";
+        if dark && room && index > 0 && self.is_mark(index + 3) {
+            self.say(index, index + 3, &["the", "lights", "off"]);
+        } else if without && (is_determiner(self.at(index + 2)) || self.at(index + 2) == "both") {
+            self.say(index, index + 2, &["turn", "off"]);
+        } else if shine && index > 0 && self.noun_before(index).is_some() && self.is_mark(index + 2) {
+            self.say(index + 1, index + 2, &["be", "on"]);
+        }
+    }
+
+    /// "except the mug, which should be full", "except the mug. Fill it": the mug.
+    fn about_the_exception(&mut self, index: usize) {
+        if self.at(index) != "except" {
+            return;
+        }
+        let first = index + 1 + usize::from(self.at(index + 1) == "for");
+        let end = self.next_mark(first, &[",", "."]);
+        if end == first || !is_determiner(self.at(first)) || !self.names_only(first, end) {
+            return;
+        }
+        let said = self.words(first..end);
+        let next = end + 1;
+        let it = (next..next + 4).find(|&at| self.at(at) == "it");
+        if self.at(end) == "," && self.at(next) == "which" {
+            self.say_all(next, next + 1, &said);
+            self.say(end, next, &["."]);
+        } else if let Some(it) = it.filter(|_| self.at(end) == "." && self.is_order(next)) {
+            self.say_all(it, it + 1, &said);
         }
     }
 }

@@ -134,6 +134,17 @@ impl Rewriting<'_> {
                 && (index..self.next_mark(index, &["."])).any(|at| ["to", "into"].contains(&self.at(at)))
             {
                 self.say(index, index + 1, &["move"]);
+            } else if clears
+                && let Some(of) = (index + 2..index + 6).find(|&at| self.at(at) == "of")
+                && is_determiner(self.at(index + 1))
+                && self.noun_before(of).is_some()
+                && self.names_only(of + 1, end)
+            {
+                // "clear the table of all food"
+                let table = self.words(index + 1..of);
+                self.say_all(end, end, &table);
+                self.say(end, end, &["from"]);
+                self.say(index + 1, of + 1, &[]);
             } else if self.at(index) == "where"
                 && ["does", "do"].contains(&self.at(index + 1))
                 && ["go", "belong", "live"].contains(&self.at(end - 1))

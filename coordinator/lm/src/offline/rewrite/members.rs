@@ -56,7 +56,8 @@ impl Rewriting<'_> {
             let closing = mark == "," && (typed == ")" || dash && dashes % 2 == 1 || named);
             dashes += usize::from(dash);
             let next = self.at(index + 1);
-            if closing && (is_going(next) || SHALL.contains(&next)) {
+            let placed = named && ["in", "on", "into", "onto", "to"].contains(&next);
+            if closing && (is_going(next) || SHALL.contains(&next) || placed) {
                 self.say(index, index + 1, &[]);
                 named = false;
             }

@@ -33,7 +33,7 @@ const DENIES: [&str; 8] = ["not", "no", "never", "nor", "neither", "without", "d
 
 const JOINS: [&str; 7] = ["and", "plus", "while", "whereas", "whilst", "so", "also"];
 
-const TELLS: [&[&str]; 19] = [
+const TELLS: [&[&str]; 21] = [
     &["that", "is"],
     &["that", "are"],
     &["that", "was"],
@@ -45,6 +45,8 @@ const TELLS: [&[&str]; 19] = [
     &["you", "find"],
     &["you", "will", "find"],
     &["youll", "find"],
+    &["you", "will", "see"],
+    &["youll", "see"],
     &["you", "will"],
     &["youll"],
     &["you", "see"],
@@ -206,6 +208,7 @@ impl Chunker<'_> {
             "go" | "goes" => Chunk::Wish,
             "itself" => Chunk::Which,
             "holding" | "containing" | "carrying" if at > 0 && self.at(at - 1) != "." => Chunk::Holds,
+            "namely" => Chunk::Hard,
             "loaded" | "stocked" if next == "with" => Chunk::Hard,
             "see" => Chunk::Moves(None),
             "one" if self.starts(at + 1, &["of", "them"]) => Chunk::Hard,
