@@ -190,7 +190,10 @@ impl<'a> Parser<'a> {
         let first = clause.verb_text.split(' ').next().unwrap_or_default();
         self.switches = clause.verbs.is_empty()
             || clause.verbs.iter().any(|verb| verb.act == Act::Keep)
-            || self.lexicon.verbs(first).iter().any(|(_, _, v)| v.wants.as_deref() == Some("toggleable"));
+            || self.lexicon.verbs(first).iter().any(|(_, particles, v)| {
+                // "start the toaster and the lights off": by a verb that takes no "off".
+                v.wants.as_deref() == Some("toggleable") && particles.iter().any(|p| p == "off")
+            });
         // "turn on the microwave, light off": its particle is said.
         self.switches &= !clause.verb_text.ends_with(" on") && !clause.verb_text.ends_with(" off");
         self.wants = clause.verbs.first().and_then(|verb| verb.wants.as_deref());

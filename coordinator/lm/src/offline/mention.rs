@@ -292,6 +292,12 @@ impl<'a> Discourse<'a> {
         }
         let except = self.exceptions(&phrase.except);
         kinds.retain(|kind| !except.contains(kind.as_str()));
+        if noun.class
+            && !phrase.other
+            && let Some(known) = self.members_spoken_of(noun, phrase)
+        {
+            return known;
+        }
         if noun.class && phrase.other {
             // "the rest of the dishes": without those spoken of.
             kinds = self.without_those_spoken_of(kinds);

@@ -163,6 +163,7 @@ pub fn written_out(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     }
     text.contractions();
     text.slips();
+    text.dark_rooms();
     text.tokens
 }
 

@@ -24,7 +24,10 @@ impl<'a> Interpreter<'_, 'a> {
             .filter(|place| matches!(place.relation, Relation::In | Relation::From))
             .cloned()
             .collect();
-        let objects = self.objects(clause, &at, verb.wants.as_deref());
+        let objects = match washed_with_water(clause, verb) {
+            Some(washed) => self.objects(&washed, &at, verb.wants.as_deref()),
+            None => self.objects(clause, &at, verb.wants.as_deref()),
+        };
         let mut changed = Vec::new();
         for &entity in &objects {
             let switched = self.switched_for(entity, &verb.set);
@@ -297,4 +300,16 @@ fn is_a_while(place: &Place) -> bool {
     const TIMES: [&str; 8] = ["second", "seconds", "minute", "minutes", "moment", "while", "bit", "time"];
     place.relation == Relation::For
         && matches!(&place.phrase.head, Head::Unknown(word) if TIMES.contains(&word.as_str()))
+}
+
+/// "rinse the mug with water": by what it is rinsed, not what is to be in it.
+fn washed_with_water<'a>(clause: &Clause<'a>, verb: &Verb) -> Option<Clause<'a>> {
+    let water = |phrase: &Phrase| phrase.liquid() == Some("water");
+    let with = clause.objects.iter().any(|phrase| phrase.with.iter().any(water));
+    let washes = verb.set.get("isDirty") == Some(&super::super::no());
+    (washes && with && !clause.says_any(&["in", "inside", "full", "filled"])).then(|| {
+        let mut washed = clause.clone();
+        washed.objects.iter_mut().for_each(|phrase| phrase.with.retain(|with| !water(with)));
+        washed
+    })
 }

@@ -19,14 +19,14 @@ impl Gist<'_> {
         if self.is_a_tool(at) || self.is_left_out(at, thing) || self.is_filled_in(thing) {
             return Some(());
         }
-        if self.goes_along(at) {
+        if self.goes_along(at) && self.affords(thing, "pickupable") {
             self.of_it_alone(thing, Self::as_before)?;
             self.topic.push(thing.clone());
             (self.same, self.listing) = (true, true);
             return Some(());
         }
         if let Some(doing) = self.pending.take()
-            && (self.unapplied || self.listing && !self.opens_another(at))
+            && (self.unapplied || self.listing && !self.opens_another(at, &doing))
         {
             return self.done_to(at, thing, doing);
         }
@@ -223,7 +223,7 @@ impl Gist<'_> {
     }
 
     /// Whether a thing in a list of what something is done to begins something else: "boil the egg, wine in the fridge".
-    pub(super) fn opens_another(&self, at: usize) -> bool {
+    pub(super) fn opens_another(&self, at: usize, doing: &Doing) -> bool {
         let comma = self.chunk_before(at) == Some(&Chunk::Join(false));
         let then = self.chunk_before(at) == Some(&Chunk::But);
         let listed = |chunk: &&Chunk| match chunk {
@@ -234,7 +234,17 @@ impl Gist<'_> {
         let behind = self.chunks[at + 1..].iter().find(|chunk| !listed(chunk));
         match behind {
             Some(Chunk::Wish | Chunk::Stays | Chunk::Tells) => true,
-            Some(Chunk::Place(Relation::In | Relation::To, ..) | Chunk::State(..)) => comma,
+            // "turn on the toaster and lights out"
+            Some(Chunk::State(_, set)) => {
+                let off = set.get("isToggled") == Some(&crate::offline::no());
+                let on = doing.wants.as_deref() == Some("toggleable")
+                    && !doing
+                        .words
+                        .iter()
+                        .any(|word| ["off", "out", "stop", "kill"].contains(&word.as_str()));
+                comma || then || off && on
+            }
+            Some(Chunk::Place(Relation::In | Relation::To, ..)) => comma,
             _ => false,
         }
     }

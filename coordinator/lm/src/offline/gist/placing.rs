@@ -14,7 +14,11 @@ impl Gist<'_> {
         preposition: &[String],
         place: &Where,
     ) -> Option<()> {
-        if self.taken.contains(&at) {
+        // "the cup with water in it"
+        let of_water = matches!(place, Where::AtIt)
+            && self.liquid.is_none()
+            && matches!(self.chunk_before(at), Some(Chunk::Liquid(_)));
+        if self.taken.contains(&at) || of_water {
             return Some(());
         }
         self.pending = None;
@@ -26,7 +30,7 @@ impl Gist<'_> {
             return (!self.tells_which_of_many(at, relation, place)).then_some(());
         }
         let (named, thing) = self.place_meant(relation, preposition, place)?;
-        if self.fills_it(thing.as_ref()) {
+        if self.fills_it(thing.as_ref()) || self.is_by_what_it_is_done(thing.as_ref()) {
             return Some(());
         }
         if relation == Relation::In && self.is_done_there(at) {
@@ -114,6 +118,12 @@ impl Gist<'_> {
         self.change_topic(vec![vessel]);
         self.fill();
         true
+    }
+
+    /// "wash the dishes under the tap": how.
+    fn is_by_what_it_is_done(&self, place: Option<&Thing>) -> bool {
+        let tap = place.is_some_and(|thing| thing.kinds.iter().any(|kind| kind == "Faucet"));
+        tap && matches!(self.saying.last, Some(Last::Done(_))) && self.homeless.is_none() && !self.fresh
     }
 
     /// "cook the potato in the pan"

@@ -121,6 +121,26 @@ impl Discourse<'_> {
         found
     }
 
+    /// "slice the lettuce and the tomato, and put both vegetables in the bowl", "all the sliced food", "all ingredients":
+    /// those of the class that were spoken of.
+    pub(super) fn members_spoken_of(&self, noun: &Noun, phrase: &Phrase) -> Option<Vec<usize>> {
+        let is_member = |&entity: &usize| noun.kinds.iter().any(|kind| kind == self.entities[entity].kind());
+        let mut found: Vec<usize> = self.spoken.iter().flat_map(|spoken| &spoken.objects).copied().collect();
+        found.retain(is_member);
+        let sliced = phrase.states.contains_key("isSliced");
+        if sliced {
+            found.retain(|&entity| self.entities[entity].asked.contains_key("isSliced"));
+        }
+        found.sort_unstable();
+        found.dedup();
+        let meant = match phrase.quantity {
+            Quantity::Count(count) => phrase.text.starts_with("both") && found.len() == count,
+            Quantity::One => false,
+            _ => (sliced || noun.word.starts_with("ingredient")) && found.len() > 1,
+        };
+        meant.then_some(found)
+    }
+
     /// "the rest of the dishes": without those spoken of; where all were, without those spoken of last.
     pub(super) fn without_those_spoken_of(&self, kinds: Vec<String>) -> Vec<String> {
         let left = |spoken: &dyn Fn(&String) -> bool| -> Vec<String> {

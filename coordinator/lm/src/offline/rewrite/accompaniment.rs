@@ -27,6 +27,9 @@ impl Rewriting<'_> {
             }
             self.beside_another(index);
             self.only_light(index);
+            self.table_needs(index);
+            self.used_for(index);
+            self.whole_salad(index);
             self.the_mixture(index);
             index += 1;
         }
@@ -134,7 +137,10 @@ impl Rewriting<'_> {
             &["with"],
         ];
         let Some(length) = self.one_of(index, &BESIDE) else { return };
-        let another = ["a", "an", "some"].contains(&self.at(index + length));
+        // "with the filled cup": one that is to be so goes there too.
+        let asked = self.lexicon.adjective(&[self.at(index + length + 1)]).is_some();
+        let first = self.at(index + length);
+        let another = ["a", "an", "some"].contains(&first) || first == "the" && asked;
         let start = self.clause_start(index);
         let order = (start..index).find(|&at| self.is_order(at));
         let place =
@@ -165,6 +171,23 @@ impl Rewriting<'_> {
         self.say(order, order + 1, &["turn", "on"]);
     }
 
+    /// "cut the lettuce, put the whole salad in the bowl": its slices.
+    fn whole_salad(&mut self, index: usize) {
+        let whole = ["the", "all"].contains(&self.at(index))
+            && ["whole", "entire", "the"].contains(&self.at(index + 1));
+        let of = usize::from(whole);
+        let salad =
+            ["salad", "mixture", "mix"].contains(&self.at(index + 1 + of)) && is_determiner(self.at(index));
+        let ingredients = usize::from(self.at(index + 2 + of) == "ingredients");
+        let placed =
+            INWARD.contains(&self.at(index + 2 + of + ingredients)) && index > 0 && self.is_order(index - 1);
+        let cut =
+            (0..index).any(|at| ["slice", "cut", "chop", "dice", "sliced", "chopped"].contains(&self.at(at)));
+        if salad && placed && cut {
+            self.say(index, index + 2 + of + ingredients, &["all", "slices"]);
+        }
+    }
+
     /// "mix all of it in a bowl and serve the salad": the bowl.
     fn the_mixture(&mut self, index: usize) {
         const MIXTURES: [&str; 5] = ["salad", "mixture", "mix", "dish", "meal"];
@@ -183,6 +206,59 @@ impl Rewriting<'_> {
         if let Some(vessel) = vessel {
             let vessel = self.at(vessel).to_owned();
             self.say(index + 1, index + 2, &[&vessel]);
+        }
+    }
+
+    /// "the table needs the plate and the cup": they go there.
+    fn table_needs(&mut self, index: usize) {
+        let needs = ["needs", "need", "gets", "wants"].contains(&self.at(index));
+        let surface = ["table", "counter", "countertop", "desk", "shelf", "dresser"];
+        let vessel = ["bowl", "plate", "pot", "pan", "box", "drawer", "fridge", "cabinet"];
+        let start = self.clause_start(index);
+        // "cut the lettuce and the bowl gets it": the bowl.
+        let joined = (start..index).rev().find(|&at| ["and", "then"].contains(&self.at(at)));
+        let first = joined.map_or(start, |at| at + 1);
+        let thing = is_determiner(self.at(index + 1)) || self.noun_from(index + 1).is_some();
+        let last = self.at(index.wrapping_sub(1)).to_owned();
+        let place = surface.contains(&last.as_str()) || vessel.contains(&last.as_str());
+        let thing = thing || ["them", "everything"].contains(&self.at(index + 1));
+        let named = index > first && place && self.names_only(first, index);
+        if !(needs && named && thing) || self.is_base_verb(index + 2) && self.at(index + 1) == "a" {
+            return;
+        }
+        let end = self.next_mark(index, &["."]);
+        let stop = (index + 1..end)
+            .find(|&at| {
+                ["and", ","].contains(&self.at(at))
+                    && self.is_order(at + 1 + usize::from(self.at(at + 1) == "and"))
+            })
+            .unwrap_or(end);
+        let mut order = vec!["put".to_owned()];
+        order.extend(self.words(index + 1..stop));
+        order.push(if surface.contains(&last.as_str()) { "on" } else { "in" }.to_owned());
+        order.extend(self.words(first..index));
+        self.say_all(first, stop, &order);
+    }
+
+    /// "use the bowl for all slices": they go in it.
+    fn used_for(&mut self, index: usize) {
+        let vessel = ["bowl", "plate", "pot", "pan", "box", "drawer", "cup", "mug", "cabinet", "shelf"];
+        let used = self.at(index) == "use" && is_determiner(self.at(index + 1));
+        let at = (index + 3..index + 6).find(|&at| self.at(at) == "for");
+        let Some(at) = at.filter(|&at| used && vessel.contains(&self.at(at - 1))) else { return };
+        let end = self.next_mark(at, &[",", "."]);
+        let end = (at..end).find(|&at| self.at(at) == "and" && self.is_order(at + 1)).unwrap_or(end);
+        let things = ["everything", "them", "it", "both", "these", "that"].contains(&self.at(at + 1))
+            && end == at + 2
+            || self.is_part(end - 1)
+            || self.names_only(at + 1, end);
+        if things && end > at + 1 {
+            let inward = if ["plate", "shelf"].contains(&self.at(at - 1)) { "on" } else { "in" };
+            let mut order = vec!["put".to_owned()];
+            order.extend(self.words(at + 1..end));
+            order.push(inward.to_owned());
+            order.extend(self.words(index + 1..at));
+            self.say_all(index, end, &order);
         }
     }
 

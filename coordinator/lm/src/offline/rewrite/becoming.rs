@@ -150,7 +150,7 @@ impl Rewriting<'_> {
         let all_of =
             usize::from(["all", "both"].contains(&self.at(index + 1)) && self.at(index + 2) == "of") * 2;
         let all_of = if ["slice", "slices", "pieces"].contains(&self.at(index + 2)) { 1 } else { all_of };
-        let them = ["it", "them", "both", "that", "all", "those", "slice", "slices", "pieces"]
+        let them = ["it", "them", "both", "that", "all", "those", "slice", "slices", "pieces", "everything"]
             .contains(&self.at(index + 1 + all_of));
         let place = index + 2 + all_of;
         let there = ["in", "on", "into", "onto", "inside"].contains(&self.at(place));

@@ -434,6 +434,34 @@ impl Rewriting<'_> {
         let dark = self.at(index) == "a" && self.at(index + 1) == "dark";
         let room = self.lexicon.is_small("rooms", &[self.at(index + 2)]);
         let without = self.starts(index, &["do", "without"]);
+        // "while the toaster runs", "put the toaster in operation"
+        let runs = ["runs", "run"].contains(&self.at(index))
+            && index > 1
+            && self.at(self.clause_start(index)) == "while"
+            && self.noun_before(index).is_some();
+        if runs && self.is_mark(index + 1) {
+            self.say(index, index + 1, &["is", "running"]);
+        }
+        let throws = ["throw", "drop", "bring"].contains(&self.at(index)) && self.opens_part(index);
+        let lights = (index + 1..index + 5)
+            .find(|&at| ["lights", "light"].contains(&self.at(at)) && !self.is_place(at + 1));
+        let off = usize::from(self.at(index + 1) == "off");
+        if let Some(light) = lights.filter(|&light| throws && self.names_only(index + 1 + off, light + 1)) {
+            let down = usize::from(self.at(light + 1) == "down");
+            if off + down > 0 || self.at(index) == "drop" {
+                self.say(light + 1, light + 1 + down, &[]);
+                self.say(index, index + 1 + off, &["turn", "off"]);
+            }
+        }
+        if self.starts(index, &["in", "operation"]) || self.starts(index, &["into", "operation"]) {
+            let start = self.clause_start(index);
+            let order = (start..index).find(|&at| ["put", "place", "set", "bring"].contains(&self.at(at)));
+            if let Some(order) = order.filter(|&order| self.names_only(order + 1, index)) {
+                self.say(index, index + 2, &[]);
+                self.say(order, order + 1, &["turn", "on"]);
+                return;
+            }
+        }
         let shine = ["shine", "glow", "burn"].contains(&self.at(index + 1)) && self.at(index) == "to";
         if dark && room && index > 0 && self.is_mark(index + 3) {
             self.say(index, index + 3, &["the", "lights", "off"]);

@@ -12,6 +12,7 @@ impl Rewriting<'_> {
         let mut index = 0;
         while index < self.tokens.len() {
             let subject = index > 0 && self.noun_before(index).is_some();
+            self.tap_water(index);
             self.inside_it(index);
             let _ = subject && (self.has_in_it(index) || self.filled_from_the_tap(index))
                 || self.given_a_liquid(index)
@@ -20,6 +21,22 @@ impl Rewriting<'_> {
                 || self.taps_to_fill(index)
                 || self.until_full(index);
             index += 1;
+        }
+    }
+
+    /// "fresh tap water": water; "use the cup for water": fill it.
+    fn tap_water(&mut self, index: usize) {
+        if TAPS.contains(&self.at(index)) && self.at(index + 1) == "water" {
+            let fresh = index > 0 && ["fresh", "cold", "cool", "clean"].contains(&self.at(index - 1));
+            self.say(index - usize::from(fresh), index + 1, &[]);
+        }
+        let used = self.at(index) == "use" && self.opens_part(index) && is_determiner(self.at(index + 1));
+        let liquid = (index + 3..index + 6).find(|&at| {
+            self.at(at) == "for" && LIQUIDS.contains(&self.at(at + 1)) && self.noun_before(at).is_some()
+        });
+        if let Some(at) = liquid.filter(|_| used) {
+            self.say(at, at + 1, &["with"]);
+            self.say(index, index + 1, &["fill"]);
         }
     }
 

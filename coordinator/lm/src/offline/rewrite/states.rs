@@ -151,7 +151,7 @@ impl Rewriting<'_> {
     }
 
     /// How many words the noun has that begins here.
-    fn noun_from(&self, at: usize) -> Option<usize> {
+    pub(super) fn noun_from(&self, at: usize) -> Option<usize> {
         (1..=super::LONGEST).rev().find(|&length| {
             let words = self.words(at..at + length);
             let words: Vec<&str> = words.iter().map(String::as_str).collect();

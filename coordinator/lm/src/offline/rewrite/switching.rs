@@ -7,16 +7,28 @@ use crate::offline::syntax::is_determiner;
 impl Rewriting<'_> {
     /// All of them.
     pub(super) fn switching(&mut self) {
+        self.dark_rooms();
         let mut index = 0;
         while index < self.tokens.len() {
             let _ = self.in_a_position(index)
-                || self.darkened(index)
                 || self.in_the_dark(index)
                 || self.started(index)
                 || self.heat_off(index)
                 || self.flipped(index)
                 || self.made_to_stop(index)
                 || self.let_cool(index);
+            index += 1;
+        }
+    }
+
+    /// "leave the whole room in the dark", in whatever words: the lights off.
+    pub(super) fn dark_rooms(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let _ = self.darkened(index);
+            if self.at(index) == "everywhere" && index > 0 && ["off", "out"].contains(&self.at(index - 1)) {
+                self.say(index, index + 1, &[]);
+            }
             index += 1;
         }
     }
@@ -64,9 +76,22 @@ impl Rewriting<'_> {
     /// "darken the kitchen", "the room should be dark": the lights off; "bring the stove to life": turn it on.
     fn darkened(&mut self, index: usize) -> bool {
         let room = is_determiner(self.at(index + 1)) && self.lexicon.is_small("rooms", &[self.at(index + 2)]);
+        let whole = is_determiner(self.at(index)) && ["whole", "entire"].contains(&self.at(index + 1));
+        if whole && self.lexicon.is_small("rooms", &[self.at(index + 2)]) {
+            self.say(index + 1, index + 2, &[]);
+            return self.darkened(index.saturating_sub(2)) || self.darkened(index.saturating_sub(1));
+        }
+        let blacked = usize::from(self.starts(index, &["black", "out"]));
+        if blacked > 0 && is_determiner(self.at(index + 2)) && self.is_mark(index + 4) {
+            self.say(index, index + 4, &["turn", "off", "the", "lights"]);
+            return true;
+        }
         let darkens = ["darken", "darkening"].contains(&self.at(index));
-        let left = ["leave", "keep", "make", "have", "get"].contains(&self.at(index))
-            && ["dark", "unlit"].contains(&self.at(index + 3));
+        let dark = self.darkness(index + 3);
+        let left = ["leave", "keep", "make", "have", "get", "put", "set", "place", "plunge", "bring"]
+            .contains(&self.at(index))
+            && dark > 0
+            && (self.is_mark(index + 3 + dark) || self.at(index + 3 + dark) == "and");
         let here = is_determiner(self.at(index)) && self.lexicon.is_small("rooms", &[self.at(index + 1)]);
         let (shall, be) = (self.at(index + 2), self.at(index + 3));
         let told = match (shall, be) {
@@ -77,7 +102,7 @@ impl Rewriting<'_> {
         let told = told * usize::from(here && told > 0 && ["dark", "unlit"].contains(&self.at(index + told)));
         let life = (index + 3..index + 7).find(|&at| self.starts(at, &["to", "life"]));
         if room && (darkens || left) {
-            self.say(index, index + 3 + usize::from(left), &["turn", "off", "the", "lights"]);
+            self.say(index, index + 3 + dark * usize::from(left), &["turn", "off", "the", "lights"]);
         } else if told > 0 {
             self.say(index, index + told + 1, &["the", "lights", "should", "be", "off"]);
         } else if let Some(life) = life.filter(|_| self.at(index) == "bring") {
@@ -87,6 +112,19 @@ impl Rewriting<'_> {
             return false;
         }
         true
+    }
+
+    /// How many words at a place say that it is dark: "dark", "in the dark", "in complete darkness".
+    fn darkness(&self, at: usize) -> usize {
+        let how = usize::from(
+            ["the", "complete", "total", "full", "completely", "totally", "nice"].contains(&self.at(at + 1)),
+        );
+        match self.at(at) {
+            "dark" | "unlit" | "darkened" => 1,
+            "in" | "into" if ["dark", "darkness"].contains(&self.at(at + 1 + how)) => 2 + how,
+            "completely" | "totally" | "fully" if self.at(at + 1) == "dark" => 2,
+            _ => 0,
+        }
     }
 
     /// "chill the wine, with the kitchen dark", "… in the dark": turn off the lights as well; "to keep cold": to chill.

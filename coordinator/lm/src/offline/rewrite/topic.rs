@@ -123,8 +123,11 @@ impl Rewriting<'_> {
     /// "two things need chilling, the cup and the mug", "everything small goes in the box: the pen and the card": the
     /// things themselves.
     fn named_behind(&mut self, index: usize) {
-        let things = ["things", "items", "objects"].contains(&self.at(index + 1))
-            && crate::offline::inflect::number(self.at(index)).is_some();
+        let number = crate::offline::inflect::number(self.at(index)).is_some();
+        let things = number && ["things", "items", "objects"].contains(&self.at(index + 1));
+        if number {
+            self.so_many_of_a_class(index);
+        }
         let whole = self.at(index) == "everything" && self.begins(index);
         let end = self.next_mark(index, &[","]).min(
             (index..self.tokens.len()).find(|&at| self.tokens[at].text == ".").unwrap_or(self.tokens.len()),
@@ -139,6 +142,19 @@ impl Rewriting<'_> {
             let list = self.words(end + 1..close);
             self.say(end, close, &[]);
             self.say_all(index, told, &list);
+        }
+    }
+
+    /// "put three dishes on the table: the plate, the bowl and the cup": those.
+    fn so_many_of_a_class(&mut self, index: usize) {
+        let class = self.lexicon.noun(&[self.at(index + 1)]).is_some_and(|(noun, _)| noun.class);
+        let mark = self.next_mark(index, &[",", "."]);
+        let colon = self.tokens.get(mark).is_some_and(|token| token.typed == ":");
+        let end = self.next_mark(mark + 1, &["."]);
+        if class && colon && self.names_only(mark + 1, end) {
+            let list = self.words(mark + 1..end);
+            self.say(mark, end, &[]);
+            self.say_all(index, index + 2, &list);
         }
     }
 
