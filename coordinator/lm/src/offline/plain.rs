@@ -38,6 +38,7 @@ pub fn plain(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Plain {
         .filter(|token| repairs.contains(&text::repair_note(token)))
         .map(|token| (token.typed.clone(), token.text.clone()))
         .collect();
+    let tokens = rewrite::with_lights_off(tokens, lexicon);
     let (left, remarks) = remark::set_apart(&tokens, lexicon, scene);
     let words = plainer(left.clone(), lexicon);
     Plain { words, left, whole: tokens, repairs, remarks, typed, cut }

@@ -147,6 +147,13 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.tokens
 }
 
+/// A sentence in which a room left in the dark is one with its lights off: nobody leaves.
+pub fn with_lights_off(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
+    let mut text = Rewriting { tokens, lexicon };
+    text.dark_rooms();
+    text.tokens
+}
+
 /// A sentence with its contractions written out, and nothing else changed.
 pub fn written_out(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
@@ -163,7 +170,6 @@ pub fn written_out(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     }
     text.contractions();
     text.slips();
-    text.dark_rooms();
     text.tokens
 }
 

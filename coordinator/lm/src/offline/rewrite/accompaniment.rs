@@ -14,6 +14,9 @@ const STAYING: [&str; 12] = [
 /// Inward, as where something goes is said.
 const INWARD: [&str; 5] = ["in", "on", "inside", "onto", "into"];
 
+/// What things are put in and carried with.
+const VESSELS: [&str; 6] = ["bowl", "plate", "pot", "pan", "cup", "mug"];
+
 impl Rewriting<'_> {
     /// All of them.
     pub(super) fn accompaniments(&mut self) {
@@ -179,8 +182,9 @@ impl Rewriting<'_> {
         let salad =
             ["salad", "mixture", "mix"].contains(&self.at(index + 1 + of)) && is_determiner(self.at(index));
         let ingredients = usize::from(self.at(index + 2 + of) == "ingredients");
-        let placed =
-            INWARD.contains(&self.at(index + 2 + of + ingredients)) && index > 0 && self.is_order(index - 1);
+        let place = index + 2 + of + ingredients;
+        let vessel = (place + 2..place + 4).any(|at| VESSELS.contains(&self.at(at)));
+        let placed = INWARD.contains(&self.at(place)) && vessel && index > 0 && self.is_order(index - 1);
         let cut =
             (0..index).any(|at| ["slice", "cut", "chop", "dice", "sliced", "chopped"].contains(&self.at(at)));
         if salad && placed && cut {
@@ -201,7 +205,7 @@ impl Rewriting<'_> {
         let vessel = (2..index).rev().find(|&at| {
             ["in", "into", "on", "onto"].contains(&self.at(at - 2))
                 && is_determiner(self.at(at - 1))
-                && ["bowl", "plate", "pot", "pan", "cup", "mug"].contains(&self.at(at))
+                && VESSELS.contains(&self.at(at))
         });
         if let Some(vessel) = vessel {
             let vessel = self.at(vessel).to_owned();
@@ -227,12 +231,14 @@ impl Rewriting<'_> {
             return;
         }
         let end = self.next_mark(index, &["."]);
-        let stop = (index + 1..end)
-            .find(|&at| {
-                ["and", ","].contains(&self.at(at))
-                    && self.is_order(at + 1 + usize::from(self.at(at + 1) == "and"))
-            })
-            .unwrap_or(end);
+        let another = |at: usize| {
+            let from = at + 1 + usize::from(self.at(at + 1) == "and");
+            let close = self.next_mark(from, &[",", "."]);
+            let told = |at: usize| SHALL.contains(&self.at(at)) || is_going(self.at(at));
+            self.is_order(from) || self.at(at) == "," && (from..close).any(told)
+        };
+        let stop =
+            (index + 1..end).find(|&at| ["and", ","].contains(&self.at(at)) && another(at)).unwrap_or(end);
         let mut order = vec!["put".to_owned()];
         order.extend(self.words(index + 1..stop));
         order.push(if surface.contains(&last.as_str()) { "on" } else { "in" }.to_owned());

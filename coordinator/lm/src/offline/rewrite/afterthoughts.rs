@@ -90,6 +90,12 @@ impl Rewriting<'_> {
                 || self.is_place(at)
                 || ["down", "up", "on", "off"].contains(&self.at(at))
         });
+        let particle = ["away", "off", "on", "out", "up", "down"].contains(&self.at(too - 1));
+        if self.is_order(index) && particle {
+            // "throw the egg away as well"
+            self.say(too, end, &[]);
+            return true;
+        }
         if told && too - index <= LONGEST_ASIDE && !self.is_order(index) {
             self.say(too, end, &[]);
         }

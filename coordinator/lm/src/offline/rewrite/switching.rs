@@ -7,7 +7,6 @@ use crate::offline::syntax::is_determiner;
 impl Rewriting<'_> {
     /// All of them.
     pub(super) fn switching(&mut self) {
-        self.dark_rooms();
         let mut index = 0;
         while index < self.tokens.len() {
             let _ = self.in_a_position(index)
