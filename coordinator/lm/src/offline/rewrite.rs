@@ -19,6 +19,7 @@ mod hurry;
 mod identified;
 mod liquids;
 mod looking;
+mod meals;
 mod members;
 mod pairs;
 mod people;
@@ -49,6 +50,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
     text.slips();
+    text.meals();
     text.colloquialisms();
     text.accompaniments();
     text.afterthoughts();

@@ -235,7 +235,10 @@ impl Rewriting<'_> {
             let from = at + 1 + usize::from(self.at(at + 1) == "and");
             let close = self.next_mark(from, &[",", "."]);
             let told = |at: usize| SHALL.contains(&self.at(at)) || is_going(self.at(at));
-            self.is_order(from) || self.at(at) == "," && (from..close).any(told)
+            let next = self.at(from + 1);
+            let ordered = self.is_base_verb(from)
+                && (is_determiner(next) || ["on", "off", "out", "up"].contains(&next));
+            ordered || self.is_order(from) || self.at(at) == "," && (from..close).any(told)
         };
         let stop =
             (index + 1..end).find(|&at| ["and", ","].contains(&self.at(at)) && another(at)).unwrap_or(end);

@@ -30,6 +30,15 @@ impl Rewriting<'_> {
             let fresh = index > 0 && ["fresh", "cold", "cool", "clean"].contains(&self.at(index - 1));
             self.say(index - usize::from(fresh), index + 1, &[]);
         }
+        let vessel =
+            index > 1 && ["glass", "cup", "mug"].contains(&self.at(index - 1)) && self.at(index - 2) == "a";
+        if vessel
+            && self.at(index) == "for"
+            && LIQUIDS.contains(&self.at(index + 1))
+            && self.is_mark(index + 2)
+        {
+            self.say(index, index + 2, &[]);
+        }
         let used = self.at(index) == "use" && self.opens_part(index) && is_determiner(self.at(index + 1));
         let liquid = (index + 3..index + 6).find(|&at| {
             self.at(at) == "for" && LIQUIDS.contains(&self.at(at + 1)) && self.noun_before(at).is_some()
