@@ -1,6 +1,7 @@
 //! Which of the places of a clause is where things shall be.
 
-use super::super::syntax::{Clause, Head, Place, Relation};
+use super::super::mention::Spoken;
+use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
 use super::Interpreter;
 
 impl<'a> Interpreter<'_, 'a> {
@@ -80,6 +81,58 @@ impl<'a> Interpreter<'_, 'a> {
             |kind: &str| scene.of_kind(kind).iter().any(|object| self.discourse.is_at(object, place));
         let lies = |kind: &String| lies_there(kind);
         furniture && (named.flat_map(|noun| &noun.kinds).any(lies) || whole && scene.kinds().any(lies_there))
+    }
+
+    /// "set the table with a plate, a cup and water": without the water, which is for the cup.
+    pub(super) fn with_a_drink(&self, clause: &Clause<'a>) -> Option<(Clause<'a>, String)> {
+        let with = |place: &&Place| place.relation == Relation::With;
+        // "lay the table with …": what is laid on it is told with it.
+        let table =
+            matches!(clause.objects.as_slice(), [table] if table.with.len() > 1 && !self.is_movable(table));
+        let laid = clause.objects.first().filter(|_| table).map_or(&[][..], |table| &table.with);
+        let placed = clause.places.iter().filter(with).map(|place| &place.phrase);
+        let listed = clause.objects.iter().chain(placed).chain(laid);
+        let liquid = listed.clone().find_map(plain_liquid)?.to_owned();
+        let vessel = |phrase: &Phrase| {
+            matches!(&phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
+                self.discourse.scene.affords(kind, "canFillWithLiquid")
+            }))
+        };
+        // "put the bowl on the table with water" is one thing and what is in it.
+        if listed.clone().count() < 3 || !listed.clone().any(vessel) {
+            return None;
+        }
+        let mut solid = clause.clone();
+        solid.objects.retain(|phrase| plain_liquid(phrase).is_none());
+        solid
+            .places
+            .retain(|place| place.relation != Relation::With || plain_liquid(&place.phrase).is_none());
+        if table && let Some(table) = solid.objects.first_mut() {
+            table.with.retain(|phrase| plain_liquid(phrase).is_none());
+        }
+        Some((solid, liquid))
+    }
+
+    /// Pours a liquid into what one drinks from of the things that were put somewhere, else into the first that holds it.
+    pub(super) fn pour_for(&mut self, spoken: &Spoken, liquid: &str) {
+        let discourse = &self.discourse;
+        let holds = |e: &&usize| discourse.scene.affords(discourse.entities[**e].kind(), "canFillWithLiquid");
+        let drinks = |e: &&usize| ["Cup", "Mug"].contains(&discourse.entities[**e].kind());
+        let mut vessels = spoken.objects.iter().filter(holds);
+        let vessel = vessels.clone().find(drinks).or_else(|| vessels.next()).copied();
+        match vessel {
+            Some(vessel) => self.add_states(vessel, &super::super::mention::filled(liquid)),
+            None => self.discourse.problem(format!("it is not said what the {liquid} is to be in"), 0.3),
+        }
+    }
+}
+
+/// The liquid that a phrase is, if it is nothing else: "water", not "a bottle of wine".
+fn plain_liquid(phrase: &Phrase) -> Option<&str> {
+    match &phrase.head {
+        Head::Liquid(_) => phrase.liquid(),
+        Head::Noun(noun) if ["water", "coffee"].contains(&noun.word.as_str()) => Some(noun.word.as_str()),
+        _ => None,
     }
 }
 

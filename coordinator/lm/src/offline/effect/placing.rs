@@ -19,6 +19,11 @@ impl<'a> Interpreter<'_, 'a> {
         if let Some(taken) = self.thrown_away_from(clause, verb) {
             return self.place(&taken, verb, next);
         }
+        if let Some((solid, liquid)) = self.with_a_drink(clause) {
+            let spoken = self.place(&solid, verb, next);
+            self.pour_for(&spoken, &liquid);
+            return spoken;
+        }
         if let Some(laid) = self.laid_with(clause) {
             return self.place(&laid, verb, next);
         }
