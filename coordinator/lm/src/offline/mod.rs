@@ -8,9 +8,11 @@
 //! is asked for, never guessed.
 
 mod clause;
+mod complaint;
 mod effect;
 mod ellipsis;
 mod emit;
+mod everyday;
 mod gist;
 mod gloss;
 mod inflect;
