@@ -22,8 +22,12 @@ const CUTS: [&str; 12] = [
 /// The same in plainer words.
 pub fn plainer(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut everyday = Everyday { tokens, lexicon };
+    everyday.nobody();
     everyday.lids();
     everyday.cuts();
+    everyday.until_it_is_done();
+    everyday.with_it_there();
+    everyday.where_it_lives();
     everyday.tokens
 }
 
@@ -129,6 +133,122 @@ impl Everyday<'_> {
     }
 }
 
+impl Everyday<'_> {
+    fn is_mark(&self, index: usize) -> bool {
+        index >= self.tokens.len() || [",", "."].contains(&self.at(index))
+    }
+
+    /// "no one": nobody.
+    fn nobody(&mut self) {
+        for index in (1..self.tokens.len()).rev() {
+            let one = self.at(index - 1) == "no" && self.at(index) == "one";
+            if one && self.at(index + 1) != "of" {
+                let typed = self.tokens[index].typed.replace("one", "nobody");
+                self.tokens.remove(index);
+                self.tokens[index - 1] = Token { text: "nobody".to_owned(), typed };
+            }
+        }
+    }
+
+    /// "nuke the spud till it's done": cook it.
+    fn until_it_is_done(&mut self) {
+        const DONE: [&str; 6] = ["cooked", "done", "tender", "soft", "edible", "baked"];
+        const HEATS: [&str; 14] = [
+            "nuke",
+            "microwave",
+            "zap",
+            "heat",
+            "oven",
+            "pan",
+            "stove",
+            "boil",
+            "hob",
+            "cooker",
+            "warm",
+            "bung",
+            "fry",
+            "simmer",
+        ];
+        let mut index = 2;
+        while index < self.tokens.len() {
+            let end = (index..self.tokens.len()).find(|&at| self.is_mark(at)).unwrap_or(self.tokens.len());
+            let start = (0..index).rev().find(|&at| self.is_mark(at)).map_or(0, |at| at + 1);
+            let it = ["it", "they", "its", "theyre", "thats"].contains(&self.at(index + 1));
+            let done = (index + 2..end).any(|at| DONE.contains(&self.at(at)));
+            let heat = (start..index).find(|&at| HEATS.contains(&self.at(at)));
+            if ["until", "till", "til"].contains(&self.at(index))
+                && it
+                && done
+                && end < index + 7
+                && let Some(heat) = heat
+            {
+                if ["nuke", "microwave", "zap", "heat", "boil", "warm"].contains(&self.at(heat))
+                    && heat <= start + 2
+                {
+                    self.say(index, end, &[]);
+                    let up = usize::from(self.at(heat + 1) == "up");
+                    self.say(heat, heat + 1 + up, &["cook"]);
+                } else {
+                    self.say(index, end, &["and", "cook", "it"]);
+                }
+            }
+            index += 1;
+        }
+    }
+
+    /// "get the coffee maker going with my mug underneath": the mug is put there.
+    fn with_it_there(&mut self) {
+        const THERE: [&str; 6] = ["in", "inside", "under", "underneath", "beneath", "below"];
+        let mut index = 3;
+        while index + 2 < self.tokens.len() {
+            let start = (0..index).rev().find(|&at| self.is_mark(at)).map_or(0, |at| at + 1);
+            let runs = (start..index).any(|at| {
+                let words: Vec<&str> = (at..(at + 2).min(index)).map(|at| self.at(at)).collect();
+                let brews =
+                    |kind: &String| ["CoffeeMachine", "Microwave", "Toaster"].contains(&kind.as_str());
+                self.lexicon.noun(&words).is_some_and(|(noun, _)| noun.kinds.first().is_some_and(brews))
+            });
+            let starts =
+                (start..index).any(|at| ["start", "going", "on", "run", "running"].contains(&self.at(at)));
+            let there = (index + 2..index + 6).find(|&at| THERE.contains(&self.at(at)));
+            if self.at(index) == "with"
+                && is_determiner(self.at(index + 1))
+                && runs
+                && starts
+                && let Some(there) = there
+            {
+                let it = usize::from(self.at(there + 1) == "it");
+                if self.is_mark(there + 1 + it) {
+                    self.say(there, there + 1 + it, &["in", "it"]);
+                    self.say(index, index + 1, &["and", "put"]);
+                }
+            }
+            index += 1;
+        }
+    }
+
+    /// "they live in the cupboard, put them back": what is said first says where.
+    fn where_it_lives(&mut self) {
+        let mut from = 0;
+        while from < self.tokens.len() {
+            let end = (from..self.tokens.len()).find(|&at| self.is_mark(at)).unwrap_or(self.tokens.len());
+            let lives =
+                (from + 1..end).any(|at| ["live", "lives", "belong", "belongs"].contains(&self.at(at)));
+            let and = usize::from(["so", "and"].contains(&self.at(end + 1)));
+            let put = end + 1 + and;
+            if lives
+                && ["put", "pop", "return", "stick"].contains(&self.at(put))
+                && ["it", "them", "both"].contains(&self.at(put + 1))
+                && ["back", "away", "there"].contains(&self.at(put + 2))
+                && self.is_mark(put + 3)
+            {
+                self.say(end, put + 3, &[]);
+            }
+            from = end + 1;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::text;
@@ -146,6 +266,12 @@ mod tests {
             ("put the lid on the pot", "put the lid on the pot"),
             ("cut a slice off the loaf", "cut a slice of the loaf"),
             ("take the mug off the shelf", "take the mug off the shelf"),
+            ("nuke the spud until it's done", "cook the spud"),
+            (
+                "get the coffee maker going with my mug underneath",
+                "get the coffee maker going and put my mug in it",
+            ),
+            ("the plates live in the cupboard, put them back", "the plates live in the cupboard"),
         ] {
             let words: Vec<String> =
                 plainer(text::tokens(said), &lexicon).into_iter().map(|token| token.text).collect();

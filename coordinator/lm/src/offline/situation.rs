@@ -337,6 +337,12 @@ fn skills_for(property: &str, value: &PropertyValue) -> &'static [&'static str] 
     }
 }
 
+/// "don't let the fern die": whether what is forbidden comes about by doing nothing.
+pub fn is_left_to(words: &[String]) -> bool {
+    let has = |any: &[&str]| words.iter().any(|word| any.contains(&word.as_str()));
+    has(&["let"]) && has(&["die", "wilt", "starve", "thirst", "dry", "shrivel", "perish", "freeze"])
+}
+
 /// The words of a text that are worth matching.
 pub fn words_of(words: &[String]) -> Vec<String> {
     words.iter().map(|word| squash(word)).filter(|word| !word.is_empty()).collect()
