@@ -176,7 +176,8 @@ impl Complaint<'_> {
         let mut from = 0;
         while from < self.tokens.len() {
             let to = self.end(from);
-            match self.left_so(from, to).or_else(|| self.is_so(from, to)) {
+            let so = self.left_so(from, to).or_else(|| self.is_so(from, to));
+            match so.or_else(|| self.cannot_with(from, to)) {
                 Some((verb, thing, state)) => {
                     let mut said: Vec<Token> = verb
                         .split(' ')
@@ -227,6 +228,14 @@ impl Complaint<'_> {
         }
         let (verb, thing, _) = self.mended_state(from, to)?;
         Some((verb, thing, be))
+    }
+
+    /// "I can't sleep with the lamp on": as above.
+    fn cannot_with(&self, from: usize, to: usize) -> Option<(&'static str, usize, usize)> {
+        let cannot = ["cant", "cannot", "couldnt", "impossible", "hard", "hopeless"];
+        let start = (from..to).find(|&at| cannot.contains(&self.at(at)))?;
+        let with = (start + 2..to).find(|&at| self.at(at) == "with")?;
+        self.mended_state(with + 1, to)
     }
 
     /// What mends the state that is told at the end of some words, of the thing that they begin with.
@@ -301,6 +310,7 @@ mod tests {
         assert_eq!(read("Who left the fridge wide open?"), "close the fridge");
         assert_eq!(read("Which clown left the toilet lid up again?"), "close the toilet lid");
         assert_eq!(read("why is the floor lamp always on"), "turn off the floor lamp");
+        assert_eq!(read("I can't sleep with the floor lamp on."), "turn off the floor lamp");
         assert_eq!(read("You leave the fridge open."), "you leave the fridge open");
         assert_eq!(read("who left the mug on the fridge"), "who left the mug on the fridge");
     }

@@ -198,7 +198,7 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
 /// A reading of the gist of what was said, if that leaves nothing open.
 fn in_short(said: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Option<Reading> {
     let short = gist::gist(said, lexicon, scene)?;
-    if wishes_for_dirt(&short, said, lexicon) {
+    if wishes_for_dirt(&short, said, lexicon) || tells_of_a_mess(said) {
         return None;
     }
     let short = short.join(" ");
@@ -222,6 +222,12 @@ fn wishes_for_dirt(short: &[String], said: &[String], lexicon: &Lexicon) -> bool
     };
     let wished = |word: &String| ["should", "must", "make", "get", "want", "leave"].contains(&word.as_str());
     !said.iter().any(wished) && short.windows(2).any(|two| two[0] == "be" && dirty(&two[1]))
+}
+
+/// "it fell on the floor", "pens all over the desk": where things are, and not where they go.
+fn tells_of_a_mess(said: &[String]) -> bool {
+    said.iter().any(|word| ["fell", "fallen", "strewn", "littered"].contains(&word.as_str()))
+        || said.windows(2).any(|two| two[0] == "all" && two[1] == "over")
 }
 
 /// The best reading of some words: word by word, or as a situation where that explains more.

@@ -6,9 +6,10 @@ use std::collections::BTreeMap;
 use super::inflect;
 
 /// What only says of which sort a thing is, before the thing: who says "coffee mug" speaks of no coffee.
-const SORTS: [(&[&str], &[&str]); 4] = [
+const SORTS: [(&[&str], &[&str]); 5] = [
     (&["coffee", "tea", "cocoa"], &["mug", "cup", "table", "towel"]),
     (&["wine", "champagne"], &["glass"]),
+    (&["tv", "television", "telly"], &["stand", "unit", "cabinet", "table", "bench"]),
     (&["shower", "bath"], &["curtain", "door", "towel", "mat", "robe", "gel", "cap"]),
     (&["dinner", "lunch", "breakfast", "supper"], &["plate", "fork", "knife", "bowl", "tray"]),
 ];

@@ -24,8 +24,9 @@ impl<'a> Interpreter<'_, 'a> {
             let at_rest = clause.complement.values().all(|value| *value == crate::offline::no());
             let dirty = clause.complement.get("isDirty") == Some(&crate::offline::yes());
             // "the lettuce, all muddy": nobody wishes for that.
-            if let Some(mended) = mended(clause).filter(|_| dirty && !spoken_of_next && !wishes(clause)) {
-                spoken = self.complaint(clause, &mended);
+            if let Some(mended) = mended(clause).filter(|_| dirty && !wishes(clause)) {
+                let only = spoken_of_next;
+                spoken = if only { self.only_mention(clause) } else { self.complaint(clause, &mended) };
             } else if clause.wants() || !spoken_of_next && self.is_untrue(clause) {
                 spoken = self.keep(clause);
             } else if at_rest && !spoken_of_next && index > 0 && self.is_told_of_things(clause) {
