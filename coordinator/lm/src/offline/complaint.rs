@@ -230,8 +230,15 @@ impl Complaint<'_> {
         Some((verb, thing, be))
     }
 
-    /// "I can't sleep with the lamp on": as above.
+    /// "I can't sleep with the lamp on", "I hate it when the lid is left open": as above.
     fn cannot_with(&self, from: usize, to: usize) -> Option<(&'static str, usize, usize)> {
+        let dislikes =
+            ["hate", "hates", "stand", "annoys", "annoying", "bugs", "sick", "tired", "fed", "angry"];
+        if let Some(hates) = (from..to).find(|&at| dislikes.contains(&self.at(at))) {
+            let when =
+                (hates + 1..to).find(|&at| ["when", "that", "how", "if", "of"].contains(&self.at(at)))?;
+            return self.mended_state(when + 1, to);
+        }
         let cannot = ["cant", "cannot", "couldnt", "impossible", "hard", "hopeless"];
         let start = (from..to).find(|&at| cannot.contains(&self.at(at)))?;
         let with = (start + 2..to).find(|&at| self.at(at) == "with")?;
@@ -245,7 +252,7 @@ impl Complaint<'_> {
         let skipped = |at: &usize| {
             HOW.contains(&self.at(*at))
                 || EVER.contains(&self.at(*at))
-                || ["is", "are"].contains(&self.at(*at))
+                || ["is", "are", "left"].contains(&self.at(*at))
         };
         let end = (thing + 1..=state).rev().find(|end| !skipped(&(end - 1)))?;
         (end > thing).then_some((verb, thing, end))
@@ -310,6 +317,7 @@ mod tests {
         assert_eq!(read("Who left the fridge wide open?"), "close the fridge");
         assert_eq!(read("Which clown left the toilet lid up again?"), "close the toilet lid");
         assert_eq!(read("why is the floor lamp always on"), "turn off the floor lamp");
+        assert_eq!(read("I hate it when the toilet lid is left open."), "close the toilet lid");
         assert_eq!(read("I can't sleep with the floor lamp on."), "turn off the floor lamp");
         assert_eq!(read("You leave the fridge open."), "you leave the fridge open");
         assert_eq!(read("who left the mug on the fridge"), "who left the mug on the fridge");

@@ -23,6 +23,9 @@ const CUTS: [&str; 12] = [
 pub fn plainer(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut everyday = Everyday { tokens, lexicon };
     everyday.nobody();
+    everyday.over_to_me();
+    everyday.once_over();
+    everyday.thirsty_plants();
     everyday.lids();
     everyday.cuts();
     everyday.until_it_is_done();
@@ -150,6 +153,71 @@ impl Everyday<'_> {
         }
     }
 
+    /// "chuck us the pillow": give it to me.
+    fn over_to_me(&mut self) {
+        const THROWS: [&str; 9] =
+            ["chuck", "throw", "toss", "sling", "lob", "fling", "shove", "slide", "bung"];
+        for index in 0..self.tokens.len() {
+            let opens =
+                index == 0 || self.is_mark(index - 1) || ["and", "then"].contains(&self.at(index - 1));
+            if opens
+                && THROWS.contains(&self.at(index))
+                && ["us", "me"].contains(&self.at(index + 1))
+                && (is_determiner(self.at(index + 2)) || ["over"].contains(&self.at(index + 2)))
+            {
+                self.say(index, index + 2, &["give", "me"]);
+            }
+        }
+    }
+
+    /// "give the mirror a once-over": a wipe.
+    fn once_over(&mut self) {
+        let mut index = 2;
+        while index < self.tokens.len() {
+            let good = usize::from(["good", "quick", "proper", "thorough"].contains(&self.at(index)));
+            let over =
+                self.at(index + good + 1) == "over" && ["once", "going"].contains(&self.at(index + good));
+            if self.at(index - 1) == "a" && over {
+                self.say(index, index + good + 2, &["wipe"]);
+            }
+            index += 1;
+        }
+    }
+
+    /// "the flowers need a drink": water them.
+    fn thirsty_plants(&mut self) {
+        const NEEDS: [&str; 7] = ["need", "needs", "want", "wants", "could", "deserve", "deserves"];
+        let mut from = 0;
+        while from < self.tokens.len() {
+            let end = (from..self.tokens.len()).find(|&at| self.is_mark(at)).unwrap_or(self.tokens.len());
+            let needs = (from + 1..end).find(|&at| NEEDS.contains(&self.at(at)));
+            let water = |at: usize| ["drink", "water", "watering", "drop"].contains(&self.at(at));
+            if let Some(needs) = needs.filter(|&needs| (needs..end).any(water))
+                && let Some(plant) = (from..needs).find(|&at| self.is_plant(at, needs))
+            {
+                self.say(needs, end, &[]);
+                self.say(from, plant, &["water"]);
+                from = plant + 1;
+                continue;
+            }
+            from = end + 1;
+        }
+    }
+
+    /// Whether the words up to a place name a plant, with what stands before its name.
+    fn is_plant(&self, from: usize, to: usize) -> bool {
+        let start = from + usize::from(is_determiner(self.at(from)));
+        let words: Vec<&str> = (start..to).map(|at| self.at(at)).collect();
+        let last = words.split_last().map(|(last, _)| *last).unwrap_or_default();
+        [words.as_slice(), &[last]].iter().any(|words| {
+            words.len() <= LONGEST
+                && self
+                    .lexicon
+                    .noun(words)
+                    .is_some_and(|(noun, _)| noun.kinds.first().is_some_and(|kind| kind == "HousePlant"))
+        })
+    }
+
     /// "nuke the spud till it's done": cook it.
     fn until_it_is_done(&mut self) {
         const DONE: [&str; 6] = ["cooked", "done", "tender", "soft", "edible", "baked"];
@@ -266,6 +334,9 @@ mod tests {
             ("put the lid on the pot", "put the lid on the pot"),
             ("cut a slice off the loaf", "cut a slice of the loaf"),
             ("take the mug off the shelf", "take the mug off the shelf"),
+            ("the flowers need a drink", "water the flowers"),
+            ("chuck us the pillow", "give me the pillow"),
+            ("give the mirror a once over", "give the mirror a wipe"),
             ("nuke the spud until it's done", "cook the spud"),
             (
                 "get the coffee maker going with my mug underneath",
