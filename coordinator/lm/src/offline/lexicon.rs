@@ -254,8 +254,8 @@ impl Lexicon {
         self.likes.extend(file.likes);
         self.senses.extend(file.senses);
         for mut situation in file.situation {
-            self.vocabulary.extend(situation::vocabulary(&situation.when));
-            situation.triggers = situation.when.iter().map(|when| self.trigger_words.trigger(when)).collect();
+            self.vocabulary.extend(situation::vocabulary(&situation.patterns()));
+            situation.learn_triggers(&mut self.trigger_words);
             self.situations.push(situation);
         }
         for mut usage in file.uses {

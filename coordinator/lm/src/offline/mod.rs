@@ -8,9 +8,11 @@
 //! is asked for, never guessed.
 
 mod clause;
+mod complaint;
 mod effect;
 mod ellipsis;
 mod emit;
+mod everyday;
 mod gist;
 mod gloss;
 mod inflect;
@@ -195,7 +197,11 @@ fn read(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Reading {
 
 /// A reading of the gist of what was said, if that leaves nothing open.
 fn in_short(said: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Option<Reading> {
-    let short = gist::gist(said, lexicon, scene)?.join(" ");
+    let short = gist::gist(said, lexicon, scene)?;
+    if wishes_for_dirt(&short, said, lexicon) || tells_of_a_mess(said) {
+        return None;
+    }
+    let short = short.join(" ");
     let tokens = rewrite::rewritten(text::tokens(&short), lexicon);
     let words: Vec<String> = tokens.into_iter().map(|token| token.text).collect();
     let mut reading = word_by_word(&words, lexicon, scene);
@@ -207,6 +213,21 @@ fn in_short(said: &[String], lexicon: &Lexicon, scene: &Scene<'_>) -> Option<Rea
     let short = format!("took it in short as \"{}\"", short.trim_end_matches('.'));
     reading.decomposition.assumptions.insert(0, short);
     Some(reading)
+}
+
+/// "it should be muddy", of what is only said to be muddy.
+fn wishes_for_dirt(short: &[String], said: &[String], lexicon: &Lexicon) -> bool {
+    let dirty = |word: &String| {
+        lexicon.adjective(&[word]).is_some_and(|adjective| adjective.set.get("isDirty") == Some(&yes()))
+    };
+    let wished = |word: &String| ["should", "must", "make", "get", "want", "leave"].contains(&word.as_str());
+    !said.iter().any(wished) && short.windows(2).any(|two| two[0] == "be" && dirty(&two[1]))
+}
+
+/// "it fell on the floor", "pens all over the desk": where things are, and not where they go.
+fn tells_of_a_mess(said: &[String]) -> bool {
+    said.iter().any(|word| ["fell", "fallen", "strewn", "littered"].contains(&word.as_str()))
+        || said.windows(2).any(|two| two[0] == "all" && two[1] == "over")
 }
 
 /// The best reading of some words: word by word, or as a situation where that explains more.
@@ -338,7 +359,8 @@ fn one_clause<'a>(
     // "close the fridge, toaster off, lights out": no more than it says.
     let noted = notes_a_state(clause, interpreter.discourse.scene)
         && others_concrete(index, clauses, lexicon, interpreter.discourse.scene) > 1;
-    if !clause.negated
+    let left_to = clause.negated && situation::is_left_to(&clause.words);
+    if (!clause.negated || left_to)
         && !noted
         && !goes_on
         && is_weak(clause, lexicon)

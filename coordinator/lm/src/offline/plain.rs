@@ -3,7 +3,7 @@
 use super::lexicon::Lexicon;
 use super::scene::Scene;
 use super::text::Token;
-use super::{remark, rewrite, slang, text};
+use super::{complaint, everyday, remark, rewrite, slang, text};
 
 /// An instruction in plainer words.
 pub struct Plain {
@@ -39,7 +39,10 @@ pub fn plain(instruction: &str, lexicon: &Lexicon, scene: &Scene<'_>) -> Plain {
         .map(|token| (token.typed.clone(), token.text.clone()))
         .collect();
     let tokens = rewrite::with_lights_off(tokens, lexicon);
-    let (left, remarks) = remark::set_apart(&tokens, lexicon, scene);
+    let tokens = everyday::plainer(tokens, lexicon);
+    let (tokens, mut remarks) = complaint::mended(tokens, lexicon, scene);
+    let (left, told) = remark::set_apart(&tokens, lexicon, scene);
+    remarks.extend(told);
     let words = plainer(left.clone(), lexicon);
     Plain { words, left, whole: tokens, repairs, remarks, typed, cut }
 }

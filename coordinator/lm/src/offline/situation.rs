@@ -10,10 +10,13 @@ use super::effect::{Change, Interpreter};
 use super::lexicon::{LONGEST, Lexicon, Settings, squash};
 use super::mention::{Spoken, Which};
 use super::syntax::Clause;
-use super::trigger::{Said, Trigger};
+use super::trigger::{Said, Trigger, TriggerWords};
 
 /// As many situations are tried as there may be nothing for in the scene.
 const MOST_TRIED: usize = 4;
+
+/// "egg stuck to the plate", "tomato all over the pan": what that is said of is not what is spoken of.
+const STUCK: [&str; 7] = ["stuck", "all", "smeared", "dried", "caked", "crusted", "everywhere"];
 
 /// A situation.
 #[derive(Clone, Debug, Deserialize)]
@@ -23,6 +26,9 @@ pub struct Situation {
     pub name: String,
     /// Sets of words that must all be there; `a/b` is either, `!a` must not be there.
     pub when: Vec<String>,
+    /// Words none of which may be there, whatever else is: a film that is over is no film.
+    #[serde(default)]
+    pub unless: Vec<String>,
     /// What is brought about.
     pub goal: Vec<Template>,
     /// It is taken even when the words could be read word by word.
@@ -46,7 +52,7 @@ pub struct Template {
     /// One object of each of these types that is there.
     #[serde(default)]
     pub one_of_each: Vec<String>,
-    /// What the sentence names, as far as it affords this: "the lettuce will wilt".
+    /// What the sentence names, as far as it affords this or is in the list of this name: "the lettuce will wilt".
     #[serde(default)]
     pub said: Option<String>,
     /// Its states.
@@ -70,6 +76,17 @@ pub struct Template {
 }
 
 impl Situation {
+    /// The patterns of its triggers, each without the words that may not be there.
+    pub fn patterns(&self) -> Vec<String> {
+        let absent: String = self.unless.iter().map(|word| format!(" !{word}")).collect();
+        self.when.iter().map(|when| format!("{when}{absent}")).collect()
+    }
+
+    /// Numbers the words of its triggers.
+    pub fn learn_triggers(&mut self, words: &mut TriggerWords) {
+        self.triggers = self.patterns().iter().map(|when| words.trigger(when)).collect();
+    }
+
     /// How many words a trigger explains, if one fits.
     pub fn fits(&self, said: &Said) -> Option<usize> {
         self.triggers.iter().filter_map(|trigger| trigger.fits(said)).max()
@@ -185,6 +202,10 @@ impl Interpreter<'_, '_> {
         let mut found = Vec::new();
         let mut at = 0;
         while at < words.len() {
+            // "the cutlery has egg stuck to it": of the cutlery.
+            if !found.is_empty() && ["has", "have", "got", "with"].contains(&words[at]) {
+                break;
+            }
             let longest = (1..=LONGEST.min(words.len() - at)).rev();
             let noun = longest.map(|length| (lexicon.noun(&words[at..at + length]), length));
             let Some((noun, plural, length)) =
@@ -194,12 +215,16 @@ impl Interpreter<'_, '_> {
                 continue;
             };
             at += length;
+            if STUCK.contains(&words.get(at).copied().unwrap_or_default()) {
+                continue;
+            }
             // A stove is switched by its knobs.
             let switched = |kind: &String| {
                 let control = lexicon.control(kind).filter(|_| affordance == "toggleable" && scene.has(kind));
                 control.map_or_else(|| kind.clone(), str::to_owned)
             };
-            let fits = |kind: &String| scene.has(kind) && scene.affords(kind, affordance);
+            let listed = |kind: &String| lexicon.is_small(affordance, &[&kind.to_lowercase()]);
+            let fits = |kind: &String| scene.has(kind) && (scene.affords(kind, affordance) || listed(kind));
             let kinds: Vec<String> = noun.kinds.iter().map(switched).filter(fits).collect();
             for kind in kinds.iter().take(if noun.class { usize::MAX } else { 1 }) {
                 let controls = affordance == "toggleable" && !noun.kinds.contains(kind);
@@ -310,6 +335,12 @@ fn skills_for(property: &str, value: &PropertyValue) -> &'static [&'static str] 
         "isBroken" => &["BreakObject"],
         _ => &[],
     }
+}
+
+/// "don't let the fern die": whether what is forbidden comes about by doing nothing.
+pub fn is_left_to(words: &[String]) -> bool {
+    let has = |any: &[&str]| words.iter().any(|word| any.contains(&word.as_str()));
+    has(&["let"]) && has(&["die", "wilt", "starve", "thirst", "dry", "shrivel", "perish", "freeze"])
 }
 
 /// The words of a text that are worth matching.

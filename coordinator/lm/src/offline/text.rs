@@ -102,10 +102,17 @@ pub fn repair_spelling(tokens: &mut [Token], lexicon: &Lexicon, scene: &Scene) -
         opens && tokens.get(at + 1).is_some_and(|next| ["the", "a", "an", "my"].contains(&next.text.as_str()))
     };
     let due: Vec<bool> = (0..tokens.len()).map(verb_is_due).collect();
-    for (token, due) in repaired.iter_mut().zip(due) {
+    // "We leave for Spain": a name is no slip, unless for the name of a thing.
+    let name = |at: usize| {
+        let large = tokens[at].typed.chars().next().is_some_and(char::is_uppercase);
+        large && at > 0 && tokens[at - 1].text != "." && tokens[at].typed.chars().any(char::is_lowercase)
+    };
+    let names: Vec<bool> = (0..tokens.len()).map(name).collect();
+    for ((token, due), name) in repaired.iter_mut().zip(due).zip(names) {
         let meant = repair(&token.text, lexicon, scene);
         let fits = |meant: &String| {
-            !due || super::syntax::is_function_word(meant) || !lexicon.verbs(meant).is_empty()
+            (!due || super::syntax::is_function_word(meant) || !lexicon.verbs(meant).is_empty())
+                && (!name || lexicon.noun(&[meant]).is_some())
         };
         if let Some(text) = meant.filter(fits) {
             token.text = text;

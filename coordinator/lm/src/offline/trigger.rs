@@ -5,6 +5,15 @@ use std::collections::BTreeMap;
 
 use super::inflect;
 
+/// What only says of which sort a thing is, before the thing: who says "coffee mug" speaks of no coffee.
+const SORTS: [(&[&str], &[&str]); 5] = [
+    (&["coffee", "tea", "cocoa"], &["mug", "cup", "table", "towel"]),
+    (&["wine", "champagne"], &["glass"]),
+    (&["tv", "television", "telly"], &["stand", "unit", "cabinet", "table", "bench"]),
+    (&["shower", "bath"], &["curtain", "door", "towel", "mat", "robe", "gel", "cap"]),
+    (&["dinner", "lunch", "breakfast", "supper"], &["plate", "fork", "knife", "bowl", "tray"]),
+];
+
 /// The words of all triggers by number.
 #[derive(Clone, Debug, Default)]
 pub struct TriggerWords {
@@ -56,13 +65,21 @@ impl TriggerWords {
                 said.words[number / 64] |= 1 << (number % 64);
             }
         };
-        for word in words {
+        for (index, word) in words.iter().enumerate() {
+            if words.get(index + 1).is_some_and(|next| is_sort_of(word, next)) {
+                continue;
+            }
             mark(word);
             inflect::singulars(word).iter().for_each(|form| mark(form));
             inflect::bases(word).iter().for_each(|(form, _)| mark(form));
         }
         said
     }
+}
+
+fn is_sort_of(word: &str, thing: &str) -> bool {
+    let thing = thing.strip_suffix('s').unwrap_or(thing);
+    SORTS.iter().any(|(sorts, things)| sorts.contains(&word) && things.contains(&thing))
 }
 
 fn is_denied(words: &[String]) -> bool {
@@ -103,6 +120,7 @@ mod tests {
         assert_eq!(fits("it is getting dark"), Some(2));
         assert_eq!(fits("make the dark wood light"), None);
         assert_eq!(fits("make it"), None);
+        assert_eq!(fits("get the dark mug"), Some(2));
         assert_eq!(fits("it is not getting dark"), None);
     }
 }

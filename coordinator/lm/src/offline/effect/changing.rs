@@ -222,6 +222,10 @@ impl<'a> Interpreter<'_, 'a> {
             Some(liquid) => self.vessel_for(liquid, &fill),
             None => self.objects(&fill, &[], Some("canFillWithLiquid")),
         };
+        if verb.act == Act::Pour && self.is_hung_up(&objects) {
+            self.discourse.problem(format!("I do not know what to do for \"{}\"", clause.text), 0.25);
+            return Spoken { objects, ..Spoken::default() };
+        }
         if said.is_none() && solid {
             return Spoken { objects, ..Spoken::default() };
         }
@@ -245,6 +249,12 @@ impl<'a> Interpreter<'_, 'a> {
         let from = clause.places.iter().filter(|place| place.relation == Relation::From);
         let reached = self.places_spoken_of(&from.cloned().collect::<Vec<_>>());
         Spoken { objects, reached, ..Spoken::default() }
+    }
+
+    /// "draw the curtains": nothing that liquid is drawn into.
+    fn is_hung_up(&self, objects: &[usize]) -> bool {
+        let kind = |e: &usize| self.discourse.entities[*e].kind();
+        objects.iter().any(|e| ["Curtains", "Blinds", "ShowerCurtain"].contains(&kind(e)))
     }
 
     /// "use the coffee machine to fill the mug", "fill the mug with the coffee machine": with coffee.

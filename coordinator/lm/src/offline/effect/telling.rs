@@ -22,7 +22,12 @@ impl<'a> Interpreter<'_, 'a> {
             // "the lamp should be off" asks for it; "the lamp is off" only says so.
             let spoken_of_next = next.is_some_and(speaks_of_it);
             let at_rest = clause.complement.values().all(|value| *value == crate::offline::no());
-            if clause.wants() || !spoken_of_next && self.is_untrue(clause) {
+            let dirty = clause.complement.get("isDirty") == Some(&crate::offline::yes());
+            // "the lettuce, all muddy": nobody wishes for that.
+            if let Some(mended) = mended(clause).filter(|_| dirty && !wishes(clause)) {
+                let only = spoken_of_next;
+                spoken = if only { self.only_mention(clause) } else { self.complaint(clause, &mended) };
+            } else if clause.wants() || !spoken_of_next && self.is_untrue(clause) {
                 spoken = self.keep(clause);
             } else if at_rest && !spoken_of_next && index > 0 && self.is_told_of_things(clause) {
                 // "… and the stove is off": whether it is so already or not, it shall be.
@@ -218,6 +223,11 @@ pub(in crate::offline) fn untrue_place<'c>(clause: &'c Clause<'_>, scene: &Scene
     .then_some(place)
 }
 
+/// "the plate should be dirty"
+fn wishes(clause: &Clause<'_>) -> bool {
+    clause.says_any(&["should", "must", "shall", "be", "want", "need", "needs", "like"])
+}
+
 /// "the pan needs to be washed"
 fn is_need(word: &str) -> bool {
     ["need", "needs", "has", "have", "want", "wants", "ought", "had"].contains(&word)
@@ -241,7 +251,8 @@ pub(super) fn left_running<'a>(clause: &Clause<'a>) -> Option<Clause<'a>> {
 
 /// What a complaint asks for: what is dirty is to be clean, what was left open is to be closed.
 pub(super) fn mended<'a>(clause: &Clause<'a>) -> Option<Clause<'a>> {
-    let complaint = clause.says_any(&["left", "still"]) || clause.complement.contains_key("isDirty");
+    let complaint =
+        clause.says_any(&["left", "still", "again", "always"]) || clause.complement.contains_key("isDirty");
     let bad = clause.complement.values().all(|value| *value == crate::offline::yes());
     (complaint && bad).then(|| {
         let mut mended = clause.clone();
