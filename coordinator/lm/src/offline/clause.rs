@@ -78,7 +78,9 @@ impl<'a> Parser<'a> {
             }
             let previous = clauses.iter().rev().nth(usize::from(late));
             let clause = self.clause(&opening, previous);
-            late &= matches!((&clause, previous), (Some(clause), Some(previous)) if clause.inherits_from(previous));
+            // "before you do that, take the book and put it on the desk": both.
+            late &= matches!((&clause, previous), (Some(clause), Some(previous))
+                if clause.inherits_from(previous) || clause.carries_it() && !opening.sentence);
             self.position = self.position.max(start + 1);
             let Some(mut clause) = clause else { continue };
             if let Some(said_before) = match &delayed {

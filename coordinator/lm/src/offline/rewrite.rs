@@ -17,6 +17,7 @@ mod exceptions;
 mod fragment;
 mod hurry;
 mod identified;
+mod lights;
 mod liquids;
 mod looking;
 mod meals;

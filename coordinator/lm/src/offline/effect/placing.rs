@@ -68,7 +68,7 @@ impl<'a> Interpreter<'_, 'a> {
             return self.put_beside(clause, &at, near);
         }
         // "move the clock while turning on the lamp": it is carried to the light.
-        let to_light = self.lamp_wanted && self.switches_on;
+        let to_light = self.lamp_wanted && self.switches_on && verb.default.is_empty();
         let carried = to_light || clause.verbs.iter().any(|verb| verb.act == Act::Hold);
         if carried && verb.act == Act::Place && !clause.back {
             return self.hold(clause);

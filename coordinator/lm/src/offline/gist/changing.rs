@@ -2,6 +2,7 @@
 
 use super::Gist;
 use super::chunk::{Chunk, Doing, Thing, Where};
+use super::saying::Last;
 use crate::offline::inflect::VerbForm;
 use crate::offline::lexicon::{Act, Settings};
 use crate::offline::scene::is_in_state;
@@ -10,6 +11,12 @@ use crate::offline::syntax::Relation;
 impl Gist<'_> {
     /// The topic shall be so.
     pub(super) fn state(&mut self, at: usize, words: &[String], set: &Settings) -> Option<()> {
+        // "shut the laptop down": said with what was done.
+        let particle = words.len() == 1
+            && matches!(&self.saying.last, Some(Last::Done(verb)) if verb.len() > 1 && verb.ends_with(words));
+        if particle {
+            return Some(());
+        }
         self.pending = None;
         let untouched = |property: &str| set.get(property) == Some(&crate::offline::no());
         let full = set.contains_key("isFilledWithLiquid") && self.liquid_is_said(at);

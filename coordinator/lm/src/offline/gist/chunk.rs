@@ -145,13 +145,18 @@ impl<'a> Chunker<'a> {
         let mut found: Vec<Chunk> = Vec::new();
         let mut spans = Vec::new();
         let mut at = 0;
+        let mut aside = false;
         while at < self.words.len() {
-            let opens = found.last().is_none_or(|last| {
+            // "when that is done light the candle"
+            let opens = aside
+                || found.last().is_none_or(|last| {
                 last.ends_part()
                     || matches!(last, Chunk::Wish)
-                    || matches!(last, Chunk::Other(word) if ["please", "you", "kindly"].contains(&word.as_str()))
+                    || matches!(last, Chunk::Other(word) if ["please", "you", "kindly", "finally", "lastly", "also"].contains(&word.as_str()))
             });
-            let (chunk, length) = match self.aside(at, opens) {
+            let said_beside = self.aside(at, opens);
+            aside = said_beside.is_some_and(|_| ["when", "once", "after"].contains(&self.at(at)));
+            let (chunk, length) = match said_beside {
                 Some(length) => (Chunk::Other(self.at(at).to_owned()), length),
                 None => self.chunk(at, opens, found.last()),
             };

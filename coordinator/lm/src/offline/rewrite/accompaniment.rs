@@ -162,6 +162,16 @@ impl Rewriting<'_> {
 
     /// "leave the desk lamp as the only light on": it should be on, and no other.
     fn only_light(&mut self, index: usize) {
+        // "leave only the desk lamp on"
+        let leaves = ["leave", "keep", "have"].contains(&self.at(index)) && self.at(index + 1) == "only";
+        let on = (index + 3..index + 8).find(|&at| ["on", "lit", "burning"].contains(&self.at(at)));
+        if let Some(on) = on.filter(|&on| leaves && self.names_only(index + 2, on))
+            && ["lamp", "light", "lights", "lamps"].contains(&self.at(on - 1))
+        {
+            self.say(on, on + 1, &["and", "turn", "off", "all", "other", "lights"]);
+            self.say(index, index + 2, &["turn", "on"]);
+            return;
+        }
         let only = self.at(index) == "as" && self.starts(index + 1, &["the", "only"]);
         let light = ["light", "lamp", "one", "source"].contains(&self.at(index + 3));
         let start = self.clause_start(index);

@@ -90,7 +90,8 @@ impl Rewriting<'_> {
         let left = ["leave", "keep", "make", "have", "get", "put", "set", "place", "plunge", "bring"]
             .contains(&self.at(index))
             && dark > 0
-            && (self.is_mark(index + 3 + dark) || self.at(index + 3 + dark) == "and");
+            && (self.is_mark(index + 3 + dark)
+                || ["and", "as", "too", "please", "then"].contains(&self.at(index + 3 + dark)));
         let here = is_determiner(self.at(index)) && self.lexicon.is_small("rooms", &[self.at(index + 1)]);
         let (shall, be) = (self.at(index + 2), self.at(index + 3));
         let told = match (shall, be) {

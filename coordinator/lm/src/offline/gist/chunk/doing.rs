@@ -47,13 +47,16 @@ impl Chunker<'_> {
         }
         let (form, verbs, mut length) = here.verbs_here()?;
         let verb: &Verb = verbs.first()?;
+        let apart = self.with_particle_apart(at, length);
+        let verb = apart.as_ref().map_or(verb, |(verb, _)| verb);
         if length > 1
             && ["to", "in", "into"].contains(&self.at(at + length - 1))
             && self.thing(at + length).is_some()
         {
             length -= 1;
         }
-        let particles = self.particles(at, verb, length);
+        let particles =
+            apart.map_or_else(|| self.particles(at, verb, length), |(_, particle)| vec![particle]);
         let next = self.at(at + length);
         let object = is_determiner(next) && !["both", "all", "each"].contains(&next)
             || ["it", "them", "him", "me"].contains(&next);
@@ -106,6 +109,17 @@ impl Chunker<'_> {
                 (Chunk::Act(Doing { act, words, form, wants: verb.wants.clone() }), length)
             }
         })
+    }
+
+    /// "shut the laptop down": the verb with what stands behind its object.
+    fn with_particle_apart(&self, at: usize, length: usize) -> Option<(&Verb, String)> {
+        let (_, named) = self.thing(at + length).filter(|_| length == 1)?;
+        let behind = at + length + named;
+        let particle = self.at(behind);
+        let ends = BEHIND_A_STATE.contains(&self.at(behind + 1));
+        let known = self.lexicon.verbs(self.at(at));
+        let (_, _, verb) = known.into_iter().find(|(_, particles, _)| *particles == [particle.to_owned()])?;
+        (ends && particle == "down").then(|| (verb, particle.to_owned()))
     }
 
     /// Whether it is said where before the sentence ends.
