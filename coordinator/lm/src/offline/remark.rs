@@ -246,6 +246,14 @@ impl Remarks<'_> {
             sentence: part.from == 0 || self.at(part.from - 1) == ".",
             ends: self.at(part.to) != ",",
         };
+        // "before you turn off the lamp": that is to be done as well.
+        let when =
+            ["before", "after", "once"].contains(&self.at(part.from)) && self.at(part.from + 1) == "you";
+        let verb = part.from + 2 + usize::from(self.at(part.from + 2) == "have");
+        let done = !self.lexicon.verbs(self.at(verb)).is_empty() && said.own_name;
+        if when && done && !["leave", "go", "come", "left"].contains(&self.at(verb)) {
+            return false;
+        }
         said.is_remark(self.lexicon) || said.is_vague(self.lexicon) || said.colon && self.heads(part)
     }
 

@@ -77,6 +77,10 @@ impl Rewriting<'_> {
             self.too_much(index);
             self.needed_there(index);
             self.dark_room(index);
+            self.none_left_so(index);
+            self.everyday_orders(index);
+            self.finally_rest(index);
+            self.cleared(index);
             self.about_the_exception(index);
             index += 1;
         }

@@ -67,4 +67,106 @@ impl Rewriting<'_> {
             self.say_all(it, it + 1, &said);
         }
     }
+
+    /// "no drawer is left open", "not a single drawer stays open": every one of them is to be closed.
+    pub(super) fn none_left_so(&mut self, index: usize) {
+        let no = match (self.at(index), self.at(index + 1), self.at(index + 2)) {
+            ("not", "a" | "one", "single") => 3,
+            ("no", "single", _) => 2,
+            ("none", "of", "the") => 3,
+            ("no", _, _) => 1,
+            _ => return,
+        };
+        let is = (index + no + 1..index + no + 4).find(|&at| self.noun_before(at).is_some());
+        let Some(is) = is.filter(|&is| !self.is_mark(is)) else { return };
+        let stays = match (self.at(is), self.at(is + 1)) {
+            ("is" | "are" | "be", "left") => 2,
+            ("should" | "must" | "may", "be" | "stay" | "remain") => {
+                2 + usize::from(self.at(is + 2) == "left")
+            }
+            ("stays" | "remains" | "stay" | "remain", _) => 1,
+            ("left", _) => 1,
+            _ => return,
+        };
+        if self.at(is + stays) == "open" && self.is_mark(is + stays + 1) {
+            self.say(is, is + stays + 1, &["should", "be", "closed"]);
+            let every: &[&str] =
+                if no == 3 && self.at(index) == "none" { &["all", "the"] } else { &["every"] };
+            self.say(index, index + no, every);
+        }
+    }
+
+    /// "keep holding it": hold it; "let the coffee machine fill the mug": fill it with coffee; "the heat turned on": the
+    /// burner; "before doing so": first.
+    pub(super) fn everyday_orders(&mut self, index: usize) {
+        let keeps = ["keep", "keeps"].contains(&self.at(index)) && self.at(index + 1) == "holding";
+        let machine = self.starts(index, &["let", "the", "coffee"])
+            && ["machine", "maker"].contains(&self.at(index + 3))
+            && ["fill", "brew"].contains(&self.at(index + 4));
+        let heat = self.starts(index, &["the", "heat"]) || self.starts(index, &["the", "flame"]);
+        let turned = usize::from(["turned", "switched"].contains(&self.at(index + 2)));
+        let doing = self.starts(index, &["before", "doing", "so"])
+            || self.starts(index, &["before", "doing", "that"]);
+        if keeps {
+            self.say(index, index + 2, &["hold"]);
+        } else if machine {
+            let end = self.next_mark(index, &[",", "."]);
+            let end = (index..end).find(|&at| self.at(at) == "and").unwrap_or(end);
+            self.say(end, end, &["with", "coffee"]);
+            self.say(index, index + 5, &["fill"]);
+        } else if heat && ["on", "off"].contains(&self.at(index + 2 + turned)) && index > 0 {
+            self.say(index + 1, index + 2 + turned, &["burner"]);
+        } else if doing {
+            let but = usize::from(index > 0 && self.at(index - 1) == "but");
+            self.say(index - but, index + 3, &[]);
+        } else if self.at(index) == "beforehand" && self.is_mark_or_and(index + 1) {
+            self.say(index, index + 1, &[]);
+        } else if self.at(index) == "toast"
+            && index > 1
+            && self.at(index - 1) == "of"
+            && self.is_part(index - 2)
+        {
+            self.say(index, index + 1, &["toasted", "bread"]);
+        }
+    }
+
+    /// "both vegetables finally rest in that pot": they go there.
+    pub(super) fn finally_rest(&mut self, index: usize) {
+        let finally = ["finally", "then", "eventually", "should"].contains(&self.at(index.wrapping_sub(1)));
+        let rest = ["rest", "rests"].contains(&self.at(index)) && ["in", "on"].contains(&self.at(index + 1));
+        if index > 1 && finally && rest {
+            let should = self.at(index - 1) == "should";
+            let from = index - usize::from(!should);
+            let wish: &[&str] = if should { &["be"] } else { &["should", "be"] };
+            self.say(from, index + 1, wish);
+        }
+    }
+
+    /// "clear the table, taking the cup to the sink", "get the table cleared: the cup …": what comes says how.
+    pub(super) fn cleared(&mut self, index: usize) {
+        if index > 0 && self.at(index - 1) != "." {
+            return;
+        }
+        let end = self.next_mark(index, &[",", "."]);
+        let gets = ["get", "have"].contains(&self.at(index)) && self.at(end.wrapping_sub(1)) == "cleared";
+        let clears = self.at(index) == "clear" && is_determiner(self.at(index + 1));
+        let colon = self.tokens.get(end).is_some_and(|token| token.typed == ":");
+        let taking =
+            ["taking", "moving", "bringing", "putting", "placing", "carrying"].contains(&self.at(end + 1));
+        if !(gets || clears) || end > index + 6 || !(colon || self.at(end) == "," && taking) {
+            return;
+        }
+        let order = match self.at(end + 1) {
+            "taking" | "moving" | "bringing" | "carrying" => "move",
+            _ => "put",
+        };
+        if taking {
+            self.say(end + 1, end + 2, &[order]);
+        }
+        self.say(index, end + 1, &[]);
+    }
+
+    fn is_mark_or_and(&self, index: usize) -> bool {
+        self.is_mark(index) || self.at(index) == "and"
+    }
 }

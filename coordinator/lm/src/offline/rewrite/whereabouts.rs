@@ -57,7 +57,9 @@ impl Rewriting<'_> {
             let next = self.at(index + 1);
             if ["joins", "join"].contains(&self.at(index))
                 && (is_determiner(next) || ["it", "them"].contains(&next))
-                && self.noun_before(index).is_some()
+                && self
+                    .noun_before(index - usize::from(["can", "may", "should"].contains(&self.at(index - 1))))
+                    .is_some()
             {
                 // "joins the book in the box": both are there.
                 let there = (index + 3..index + 6).find(|&at| {
@@ -67,7 +69,8 @@ impl Rewriting<'_> {
                     self.say(there, there, &["should", "be"]);
                     self.say(index, index + 1, &["and"]);
                 } else {
-                    self.say(index, index + 1, &["should", "be", "beside"]);
+                    let can = usize::from(["can", "may", "should"].contains(&self.at(index - 1)));
+                    self.say(index - can, index + 1, &["should", "be", "beside"]);
                 }
             }
         }
