@@ -137,7 +137,7 @@ fn where_a_thing_was_says_where_it_is_to_be() {
         // Nobody says where it goes, but where it was.
         (
             "heat the apple on the counter",
-            json!([{"object": "CounterTop", "contains": [{"object": "Apple", "is": hot}]}]),
+            json!([{"object": "CounterTop", "contains": [{"object": "Apple_1", "is": hot}]}]),
         ),
         // Thrown away from there, not put there.
         ("throw away the bread on the counter", json!([{"object": "GarbageCan", "contains": ["Bread"]}])),

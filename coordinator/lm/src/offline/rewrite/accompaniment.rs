@@ -252,6 +252,10 @@ impl Rewriting<'_> {
         };
         let stop =
             (index + 1..end).find(|&at| ["and", ","].contains(&self.at(at)) && another(at)).unwrap_or(end);
+        // "the table needs a cup on it": told already.
+        if (index..stop).any(|at| ["it", "them"].contains(&self.at(at)) && self.is_place(at - 1)) {
+            return;
+        }
         let mut order = vec!["put".to_owned()];
         order.extend(self.words(index + 1..stop));
         order.push(if surface.contains(&last.as_str()) { "on" } else { "in" }.to_owned());

@@ -81,9 +81,8 @@ impl Rewriting<'_> {
         let Some(is) = is.filter(|&is| !self.is_mark(is)) else { return };
         let stays = match (self.at(is), self.at(is + 1)) {
             ("is" | "are" | "be", "left") => 2,
-            ("should" | "must" | "may", "be" | "stay" | "remain") => {
-                2 + usize::from(self.at(is + 2) == "left")
-            }
+            ("should" | "must" | "may", "stay" | "remain") => 2,
+            ("should" | "must" | "may", "be") if self.at(is + 2) == "left" => 3,
             ("stays" | "remains" | "stay" | "remain", _) => 1,
             ("left", _) => 1,
             _ => return,

@@ -184,7 +184,7 @@ impl Rewriting<'_> {
             // "the paper is trash, and the pen goes in the drawer"
             let told = first.is_some_and(|first| {
                 let is = (first..index).find(|&at| ["is", "are"].contains(&self.at(at)));
-                is.is_some_and(|is| is > first && self.names_only(first, is))
+                is.is_some_and(|is| is > first && self.at(is + 1) != "to" && self.names_only(first, is))
             });
             let said = told
                 || (part..index).any(|at| SHALL[..3].contains(&self.at(at)))
