@@ -113,6 +113,8 @@ struct Gist<'a> {
     /// Whether something is carried or wanted in this part.
     moved: bool,
     denied: bool,
+    /// Whether something is left or kept behind "but".
+    leaves: bool,
     /// Whether what comes next only says which thing is meant.
     tells: bool,
     saying: Saying,
@@ -145,6 +147,7 @@ impl<'a> Gist<'a> {
             moved: false,
             leading: None,
             denied: false,
+            leaves: false,
             tells: false,
             saying: Saying::default(),
         }
@@ -208,6 +211,7 @@ impl<'a> Gist<'a> {
                 Some(())
             }
             Chunk::But => {
+                self.leaves = matches!(self.chunk(at + 1), Some(Chunk::Moves(None)));
                 self.ends_in_denial();
                 (self.tells, self.denied) = (false, false);
                 Some(())
@@ -279,7 +283,7 @@ impl<'a> Gist<'a> {
         self.ends_in_denial();
         self.put_with_the_rest();
         (self.tells, self.denied, self.pending, self.front, self.same) = (false, false, None, None, false);
-        (self.moved, self.listing) = (false, false);
+        (self.moved, self.listing, self.leaves) = (false, false, false);
         self.homeless.is_none().then_some(())
     }
 

@@ -51,6 +51,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
     text.slips();
+    text.left_out();
     text.meals();
     text.colloquialisms();
     text.accompaniments();

@@ -16,6 +16,15 @@ impl Gist<'_> {
         }
         self.tells &= matches!(self.chunk_before(at), Some(Chunk::Tells));
         self.named = Some(thing.clone());
+        // "the cutlery in the drawer, but not the knife": not all of it.
+        let of_them = |known: &Thing| {
+            known.kinds.len() > 1
+                && known != thing
+                && thing.kinds.iter().any(|kind| known.kinds.contains(kind))
+        };
+        if (self.denied || self.leaves) && self.topic.iter().chain(&self.before).any(of_them) {
+            return None;
+        }
         if self.is_a_tool(at) || self.is_left_out(at, thing) || self.is_filled_in(thing) {
             return Some(());
         }

@@ -69,9 +69,45 @@ impl Rewriting<'_> {
         }
     }
 
-    /// Where the word of the same sentence stands that says that all are meant.
+    /// Where the word of the same sentence stands that says that all are meant, or the article of a class of things:
+    /// "the cutlery".
     fn all_before(&self, index: usize) -> Option<usize> {
-        (self.sentence_start(index)..index).rev().find(|&at| ALL.contains(&self.at(at)))
+        let start = self.sentence_start(index);
+        let class = |at: &usize| {
+            self.at(*at) == "the" && self.lexicon.noun(&[self.at(at + 1)]).is_some_and(|(noun, _)| noun.class)
+        };
+        (start..index)
+            .rev()
+            .find(|&at| ALL.contains(&self.at(at)))
+            .or_else(|| (start..index).rev().filter(|at| at + 1 < index).find(class))
+    }
+
+    /// What is left out of all that is spoken of, in whatever words.
+    pub(super) fn left_out(&mut self) {
+        for index in 0..self.tokens.len() {
+            self.left_where_it_is(index);
+        }
+    }
+
+    /// "all the fruit in the bowl but leave the apple where it is": except the apple.
+    fn left_where_it_is(&mut self, index: usize) -> bool {
+        const STAYS: [&[&str]; 6] = [
+            &["where", "it", "is"],
+            &["where", "they", "are"],
+            &["alone"],
+            &["out"],
+            &["there"],
+            &["as", "it", "is"],
+        ];
+        let leaves = self.at(index) == "but" && ["leave", "keep"].contains(&self.at(index + 1));
+        let end = self.next_mark(index, &[",", "."]);
+        let stays = (index + 3..end).find(|&at| {
+            self.one_of(at, &STAYS).is_some_and(|length| at + length == end) && self.names_only(index + 2, at)
+        });
+        let Some(stays) = stays.filter(|_| leaves && self.all_before(index).is_some()) else { return false };
+        self.say(stays, end, &[]);
+        self.say(index, index + 2, &["except"]);
+        true
     }
 
     /// Where what a word for all is said of ends: before what it should do, else behind its noun.
