@@ -329,8 +329,7 @@ impl Rewriting<'_> {
         let shall = (index + 4..index + 7).find(|&at| self.noun_before(at).is_some());
         let told = shall.is_some_and(|at| SHALL[..3].contains(&self.at(at)) || is_going(self.at(at)));
         if left && place && told && index > 0 && self.noun_before(index).is_some() {
-            let many = self.at(index - 1).ends_with('s');
-            self.say(index, index + 1, &["that", if many { "are" } else { "is" }]);
+            self.say(index, index + 1, &[]);
         }
     }
 

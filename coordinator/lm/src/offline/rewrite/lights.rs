@@ -106,7 +106,20 @@ impl Rewriting<'_> {
         let turned = usize::from(["turned", "switched"].contains(&self.at(index + 2)));
         let doing = self.starts(index, &["before", "doing", "so"])
             || self.starts(index, &["before", "doing", "that"]);
-        if keeps {
+        let start = self.clause_start(index);
+        let (it, length) = match (self.at(index + 1), self.at(index + 2)) {
+            ("it", "is") => ("it", 3),
+            ("they", "are") => ("them", 3),
+            ("theyre", _) => ("them", 2),
+            _ => ("", 0),
+        };
+        let cold = length > 0
+            && ["until", "till"].contains(&self.at(index))
+            && ["cold", "chilled", "cool"].contains(&self.at(index + length))
+            && (start..index).any(|at| ["keep", "leave", "put", "store", "place"].contains(&self.at(at)));
+        if cold {
+            self.say(index, index + length + 1, &["and", "chill", it]);
+        } else if keeps {
             self.say(index, index + 2, &["hold"]);
         } else if machine {
             let end = self.next_mark(index, &[",", "."]);
