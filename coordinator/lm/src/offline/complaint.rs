@@ -114,15 +114,18 @@ impl Complaint<'_> {
     /// Leaves out what is feared: "before it gets wet", "so nobody trips over it", "or it will go off".
     fn leave_out_fears(&mut self) -> Vec<String> {
         let mut fears = Vec::new();
-        let mut index = 1;
+        let mut index = 0;
         while index < self.tokens.len() {
             match self.fear(index) {
                 Some((from, to)) => {
                     let words: Vec<&str> = (from..to).map(|at| self.at(at)).collect();
                     fears.push(words.join(" "));
                     self.tokens.drain(from..to);
-                    // The comma before it, where another mark follows.
-                    if self.at(from - 1) == "," && self.is_mark(from) {
+                    // The comma before it, where another mark follows, or the one behind what is said first.
+                    let first = from == 0 || self.at(from - 1) == ".";
+                    if first && self.at(from) == "," {
+                        self.tokens.remove(from);
+                    } else if from > 0 && self.at(from - 1) == "," && self.is_mark(from) {
                         self.tokens.remove(from - 1);
                     }
                     index = from;
@@ -136,13 +139,17 @@ impl Complaint<'_> {
     /// From where to where something is feared that begins with a word.
     fn fear(&self, index: usize) -> Option<(usize, usize)> {
         let opens = self.at(index);
-        let ordered = !self.is_mark(index - 1) || self.at(index - 1) == ",";
-        if !BEFORE.contains(&opens) || !ordered || opens == "case" && self.at(index - 1) != "in" {
+        let before = index.checked_sub(1).map_or(".", |before| self.at(before));
+        // "before it gets wet, turn it off"
+        let first = before == "." && opens == "before";
+        if !BEFORE.contains(&opens) || before == "." && !first || opens == "case" && before != "in" {
             return None;
         }
         let from = index - usize::from(opens == "case");
         let subject = index + 1 + usize::from(["that", "else"].contains(&self.at(index + 1)));
-        let named = SUBJECTS.contains(&self.at(subject)) || is_determiner(self.at(subject));
+        // "before you turn off the lamp" is what a robot does.
+        let named = self.at(subject) != "you"
+            && (SUBJECTS.contains(&self.at(subject)) || is_determiner(self.at(subject)));
         let to = self.fear_end(subject);
         let denies =
             ["not", "wont", "doesnt", "dont", "cant", "cannot", "never", "nobody", "noone", "nothing", "no"];
@@ -156,7 +163,7 @@ impl Complaint<'_> {
             _ => true,
         };
         let feared = (subject + 1..to).any(|at| self.lexicon.is_small("mishaps", &[self.at(at)]));
-        (named && fits && feared && from > 0).then_some((from, to))
+        (named && fits && feared && (!first || self.at(to) == ",")).then_some((from, to))
     }
 
     /// Where what is feared ends: at a mark, or before another order.

@@ -6,34 +6,6 @@ use crate::offline::clause::is_going;
 use crate::offline::syntax::{LIQUIDS, is_determiner};
 use crate::offline::text::POSSESSIVE;
 
-/// What may happen to something that nothing is done about.
-const MISHAPS: [&str; 24] = [
-    "wet",
-    "dark",
-    "dirty",
-    "late",
-    "splashed",
-    "lost",
-    "damaged",
-    "broken",
-    "ruined",
-    "worse",
-    "bad",
-    "stale",
-    "soggy",
-    "stolen",
-    "forgotten",
-    "trampled",
-    "squashed",
-    "knocked",
-    "dusty",
-    "too",
-    "any",
-    "crushed",
-    "messy",
-    "mouldy",
-];
-
 /// What wishes for something, and is said first: "what I'm hungry for is …".
 const HUNGRY_FOR: [&[&str]; 6] = [
     &["hungry", "for"],
@@ -56,7 +28,6 @@ impl Rewriting<'_> {
             self.gone_off(index);
             self.of_today(index);
             self.to_the_brim(index);
-            self.before_a_mishap(index);
             self.hungry_for(index);
             self.why_not(index);
             self.whichever(index);
@@ -76,12 +47,12 @@ impl Rewriting<'_> {
             self.each_of_them_so(index);
             self.too_much(index);
             self.needed_there(index);
-            self.dark_room(index);
-            self.none_left_so(index);
-            self.everyday_orders(index);
+            self.keeps_holding(index);
+            self.filled_by_the_machine(index);
+            self.until_cold(index);
+            self.done_beforehand(index);
+            self.slice_of_toast(index);
             self.finally_rest(index);
-            self.cleared(index);
-            self.about_the_exception(index);
             index += 1;
         }
     }
@@ -127,19 +98,6 @@ impl Rewriting<'_> {
             .count();
         let alone = index - how == start && start > 0 && self.is_mark(index + 3);
         self.say(index - how - usize::from(alone), index + 3, &[]);
-    }
-
-    /// "before it gets wet": why, and no order.
-    fn before_a_mishap(&mut self, index: usize) {
-        let it = ["it", "they", "that", "this", "somebody", "someone"].contains(&self.at(index + 1));
-        let gets = ["gets", "get", "goes", "go", "becomes", "turns"].contains(&self.at(index + 2));
-        let mishap = MISHAPS.contains(&self.at(index + 3));
-        if self.at(index) == "before" && it && gets && mishap {
-            let end = self.next_mark(index, &[",", "."]);
-            let end = (index..end).find(|&at| self.at(at) == "and" && self.is_order(at + 1)).unwrap_or(end);
-            let opens = index == 0 || self.is_mark(index - 1);
-            self.say(index, end + usize::from(opens && self.at(end) == ","), &[]);
-        }
     }
 
     /// "the wine needs chilling before dinner": only when.
@@ -435,6 +393,74 @@ impl Rewriting<'_> {
             said.extend(self.words(place + 1..ends));
             self.say_all(there, there + 1, &said);
             self.say(start, index + 1, &["put"]);
+        }
+    }
+
+    /// "keep holding it": hold it.
+    fn keeps_holding(&mut self, index: usize) {
+        if self.starts(index, &["keep", "holding"]) {
+            self.say(index, index + 2, &["hold"]);
+        }
+    }
+
+    /// "let the coffee machine fill the mug": fill it with coffee.
+    fn filled_by_the_machine(&mut self, index: usize) {
+        let machine = self.starts(index, &["let", "the", "coffee"])
+            && ["machine", "maker"].contains(&self.at(index + 3))
+            && ["fill", "brew"].contains(&self.at(index + 4));
+        if machine {
+            let end = self.next_mark(index, &[",", "."]);
+            let end = (index..end).find(|&at| self.at(at) == "and").unwrap_or(end);
+            self.say(end, end, &["with", "coffee"]);
+            self.say(index, index + 5, &["fill"]);
+        }
+    }
+
+    /// "keep it in the fridge until it is cold": and chill it.
+    fn until_cold(&mut self, index: usize) {
+        let (it, length) = match (self.at(index + 1), self.at(index + 2)) {
+            ("it", "is") => ("it", 3),
+            ("they", "are") => ("them", 3),
+            ("theyre", _) => ("them", 2),
+            _ => return,
+        };
+        let until = ["until", "till"].contains(&self.at(index));
+        let cold = ["cold", "chilled", "cool"].contains(&self.at(index + length));
+        let kept = (self.clause_start(index)..index)
+            .any(|at| ["keep", "leave", "put", "store", "place"].contains(&self.at(at)));
+        if until && cold && kept {
+            self.say(index, index + length + 1, &["and", "chill", it]);
+        }
+    }
+
+    /// "but before doing so wash it", "wash it beforehand": wash it.
+    fn done_beforehand(&mut self, index: usize) {
+        let doing = self.starts(index, &["before", "doing"]) && ["so", "that"].contains(&self.at(index + 2));
+        if doing {
+            let but = usize::from(index > 0 && self.at(index - 1) == "but");
+            self.say(index - but, index + 3, &[]);
+        } else if self.at(index) == "beforehand" && (self.is_mark(index + 1) || self.at(index + 1) == "and") {
+            self.say(index, index + 1, &[]);
+        }
+    }
+
+    /// "a slice of toast": of toasted bread.
+    fn slice_of_toast(&mut self, index: usize) {
+        let of = index > 1 && self.at(index - 1) == "of" && self.is_part(index - 2);
+        if self.at(index) == "toast" && of {
+            self.say(index, index + 1, &["toasted", "bread"]);
+        }
+    }
+
+    /// "both vegetables finally rest in that pot": they go there.
+    fn finally_rest(&mut self, index: usize) {
+        let finally = ["finally", "then", "eventually", "should"].contains(&self.at(index.wrapping_sub(1)));
+        let rest = ["rest", "rests"].contains(&self.at(index)) && ["in", "on"].contains(&self.at(index + 1));
+        if index > 1 && finally && rest {
+            let should = self.at(index - 1) == "should";
+            let from = index - usize::from(!should);
+            let wish: &[&str] = if should { &["be"] } else { &["should", "be"] };
+            self.say(from, index + 1, wish);
         }
     }
 }

@@ -86,6 +86,7 @@ impl Rewriting<'_> {
     pub(super) fn left_out(&mut self) {
         for index in 0..self.tokens.len() {
             self.left_where_it_is(index);
+            self.about_the_exception(index);
         }
     }
 
@@ -125,5 +126,26 @@ impl Rewriting<'_> {
         }
         (all + 2..end.min(all + LONGEST_ASIDE))
             .find(|&at| self.noun_before(at).is_some() && self.lexicon.noun(&[self.at(at)]).is_none())
+    }
+
+    /// "except the mug, which should be full", "except the mug. Fill it": the mug.
+    fn about_the_exception(&mut self, index: usize) {
+        if self.at(index) != "except" {
+            return;
+        }
+        let first = index + 1 + usize::from(self.at(index + 1) == "for");
+        let end = self.next_mark(first, &[",", "."]);
+        if end == first || !is_determiner(self.at(first)) || !self.names_only(first, end) {
+            return;
+        }
+        let said = self.words(first..end);
+        let next = end + 1;
+        let it = (next..next + 4).find(|&at| self.at(at) == "it");
+        if self.at(end) == "," && self.at(next) == "which" {
+            self.say_all(next, next + 1, &said);
+            self.say(end, next, &["."]);
+        } else if let Some(it) = it.filter(|_| self.at(end) == "." && self.is_order(next)) {
+            self.say_all(it, it + 1, &said);
+        }
     }
 }

@@ -309,4 +309,35 @@ impl Rewriting<'_> {
             index += 1;
         }
     }
+
+    /// What is only cleared by what is said next.
+    pub(super) fn clearings(&mut self) {
+        for index in 0..self.tokens.len() {
+            self.cleared(index);
+        }
+    }
+
+    /// "clear the table, taking the cup to the sink", "get the table cleared: the cup …": what comes says how.
+    fn cleared(&mut self, index: usize) {
+        if index > 0 && self.at(index - 1) != "." {
+            return;
+        }
+        let end = self.next_mark(index, &[",", "."]);
+        let gets = ["get", "have"].contains(&self.at(index)) && self.at(end.wrapping_sub(1)) == "cleared";
+        let clears = self.at(index) == "clear" && is_determiner(self.at(index + 1));
+        let colon = self.tokens.get(end).is_some_and(|token| token.typed == ":");
+        let taking =
+            ["taking", "moving", "bringing", "putting", "placing", "carrying"].contains(&self.at(end + 1));
+        if !(gets || clears) || end > index + 6 || !(colon || self.at(end) == "," && taking) {
+            return;
+        }
+        let order = match self.at(end + 1) {
+            "taking" | "moving" | "bringing" | "carrying" => "move",
+            _ => "put",
+        };
+        if taking {
+            self.say(end + 1, end + 2, &[order]);
+        }
+        self.say(index, end + 1, &[]);
+    }
 }
