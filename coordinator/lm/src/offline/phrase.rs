@@ -392,10 +392,11 @@ impl Parser<'_> {
             }
             // "put a burning candle on the counter": one that is to burn.
             let before = self.position.checked_sub(2).map_or("", |at| self.words[at].as_str());
-            let lit = self.wants_place
+            let lit = (self.wants_place || !self.acts)
                 && phrase.indefinite
                 && preposition(&[before]).is_none()
-                && adjective.set.contains_key("isToggled");
+                && (adjective.set.contains_key("isToggled")
+                    || adjective.set.get("isOpen") == Some(&super::yes()));
             let target = if adjective.selects && !lit { &mut phrase.selects } else { &mut phrase.states };
             target.extend(adjective.set.clone());
             self.position += length;

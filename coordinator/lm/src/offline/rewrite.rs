@@ -56,6 +56,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.colloquialisms();
     text.devices();
     text.clearings();
+    text.reported_orders();
     text.accompaniments();
     text.afterthoughts();
     text.comings();

@@ -1,8 +1,10 @@
 //! Which of the places of a clause is where things shall be.
 
+use super::super::lexicon::Settings;
 use super::super::mention::Spoken;
 use super::super::syntax::{Clause, Head, Phrase, Place, Relation};
 use super::Interpreter;
+use crate::ObjectView;
 
 impl<'a> Interpreter<'_, 'a> {
     /// The goal, the movable receptacle it is reached in, and the places that say where things were.
@@ -81,6 +83,21 @@ impl<'a> Interpreter<'_, 'a> {
             |kind: &str| scene.of_kind(kind).iter().any(|object| self.discourse.is_at(object, place));
         let lies = |kind: &String| lies_there(kind);
         furniture && (named.flat_map(|noun| &noun.kinds).any(lies) || whole && scene.kinds().any(lies_there))
+    }
+
+    /// "it waits in the closed fridge": where "closed" tells none from another, it is to be closed in the end.
+    pub(super) fn close_what_is_closed(&mut self, phrase: &Phrase, places: &[usize]) {
+        let closed = Settings::from([("isOpen".to_owned(), crate::offline::no())]);
+        if phrase.selects.get("isOpen") != closed.get("isOpen") {
+            return;
+        }
+        for &place in places {
+            let kind = self.discourse.entities[place].kind();
+            let open = |object: &&ObjectView| object.states.iter().any(|state| state == "isOpen");
+            if !self.discourse.scene.of_kind(kind).iter().any(open) {
+                self.add_states(place, &closed);
+            }
+        }
     }
 
     /// "set the table with a plate, a cup and water": without the water, which is for the cup.

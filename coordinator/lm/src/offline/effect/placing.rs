@@ -246,6 +246,7 @@ impl<'a> Interpreter<'_, 'a> {
         }
         self.add_asked(&places);
         self.switch_on_what_is_lit(&goal.phrase, &places);
+        self.close_what_is_closed(&goal.phrase, &places);
         // "serve the potato hot on the plate"
         for &entity in objects.iter().filter(|_| !clause.complement.is_empty()) {
             let states = self.discourse.possible_states(entity, clause.complement.clone());

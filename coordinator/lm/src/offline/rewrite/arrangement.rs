@@ -192,4 +192,129 @@ impl Rewriting<'_> {
             index += 1;
         }
     }
+
+    /// Orders in the words of a report: "they are both moved into the sink", "are best hidden in a drawer", "see that it
+    /// is closed", "taking care that it does not leave the shelf", "into the box with the keys", "lower it onto the desk".
+    pub(super) fn reported_orders(&mut self) {
+        let mut index = 0;
+        while index < self.tokens.len() {
+            let _ = self.are_moved(index)
+                || self.best_kept(index)
+                || self.see_that(index)
+                || self.taking_care(index)
+                || self.into_it_with(index)
+                || self.lowered_onto(index)
+                || self.everything_sliced(index);
+            index += 1;
+        }
+    }
+
+    /// "the cups are both moved into the sink": they should be.
+    fn are_moved(&mut self, index: usize) -> bool {
+        let both = usize::from(["both", "all", "each", "then"].contains(&self.at(index + 1)));
+        let moved = ["moved", "carried", "brought", "taken", "transferred", "returned"]
+            .contains(&self.at(index + 1 + both));
+        let there = ["to", "into", "onto"].contains(&self.at(index + 2 + both));
+        let are = ["is", "are"].contains(&self.at(index)) && moved && there;
+        let told = are && index > 0 && self.noun_before(index).is_some();
+        if told {
+            self.say(index, index + 1 + both, &["should", "be"]);
+        }
+        told
+    }
+
+    /// "the keys are best hidden in a drawer": they should be.
+    fn best_kept(&mut self, index: usize) -> bool {
+        let best = ["is", "are"].contains(&self.at(index)) && self.at(index + 1) == "best";
+        let kept = best && (self.is_participle(index + 2) || self.is_place(index + 2));
+        if kept {
+            self.say(index, index + 2, &["should", "be"]);
+        }
+        kept
+    }
+
+    /// "check that every cabinet is closed": make sure of it.
+    fn see_that(&mut self, index: usize) -> bool {
+        let sees = ["see", "check", "verify"].contains(&self.at(index)) && self.at(index + 1) == "that";
+        let what = self.at(index + 2);
+        let told = sees && (is_determiner(what) || ["every", "each", "all", "both", "no"].contains(&what));
+        if told {
+            self.say(index, index + 1, &["make", "sure"]);
+        }
+        told
+    }
+
+    /// "taking care that the statue does not leave its table": it stays.
+    fn taking_care(&mut self, index: usize) -> bool {
+        if !self.starts(index, &["taking", "care", "that"])
+            && !self.starts(index, &["making", "sure", "that"])
+        {
+            return false;
+        }
+        let end = self.next_mark(index, &[",", "."]);
+        let leaves = (index + 4..end).find(|&at| {
+            ["does", "do"].contains(&self.at(at))
+                && self.at(at + 1) == "not"
+                && ["leave", "move"].contains(&self.at(at + 2))
+                || ["doesnt", "dont"].contains(&self.at(at)) && ["leave", "move"].contains(&self.at(at + 1))
+        });
+        if let Some(leaves) = leaves.filter(|&leaves| self.names_only(index + 3, leaves)) {
+            let mut said = vec![".".to_owned()];
+            said.extend(self.words(index + 3..leaves));
+            said.push("stays".to_owned());
+            let comma = usize::from(index > 0 && self.at(index - 1) == ",");
+            self.say_all(index - comma, end, &said);
+        }
+        leaves.is_some()
+    }
+
+    /// "into the box with the keys and the card": put them there.
+    fn into_it_with(&mut self, index: usize) -> bool {
+        let then = ["and", "then"].contains(&self.at(index.wrapping_sub(1)));
+        let opens = index == 0 || self.is_mark(index - 1) || then;
+        let inward = ["into", "onto"].contains(&self.at(index)) && is_determiner(self.at(index + 1));
+        let with = (index + 3..index + 6).find(|&at| self.at(at) == "with" && self.noun_before(at).is_some());
+        let Some(with) = with.filter(|_| opens && inward && is_determiner(self.at(index + 1))) else {
+            return false;
+        };
+        let mut end = with + 1;
+        while end < self.tokens.len() && !self.is_mark(end) || self.lists_on(end) {
+            end += 1;
+        }
+        if !self.names_only(with + 1, end) {
+            return false;
+        }
+        let mut order = vec!["put".to_owned()];
+        order.extend(self.words(with + 1..end));
+        order.extend(self.words(index..with));
+        self.say_all(index, end, &order);
+        true
+    }
+
+    /// Whether more things are listed behind a comma.
+    fn lists_on(&self, at: usize) -> bool {
+        let from = at + 1 + usize::from(self.at(at + 1) == "and");
+        let end = self.next_mark(from, &[",", "."]);
+        self.at(at) == "," && end > from && is_determiner(self.at(from)) && self.names_only(from, end)
+    }
+
+    /// "lower it onto the desk": put it there.
+    fn lowered_onto(&mut self, index: usize) -> bool {
+        let it = ["it", "them"].contains(&self.at(index + 1));
+        let lowered = self.at(index) == "lower" && it && ["onto", "into", "to"].contains(&self.at(index + 2));
+        if lowered {
+            self.say(index, index + 1, &["put"]);
+        }
+        lowered
+    }
+
+    /// "everything sliced goes on the plate": all slices.
+    fn everything_sliced(&mut self, index: usize) -> bool {
+        let cut = ["sliced", "cut", "chopped", "diced"].contains(&self.at(index + 1));
+        let sliced = self.at(index) == "everything" && cut;
+        if sliced {
+            self.say(index, index + 2, &["all", "slices"]);
+        }
+        sliced
+    }
 }

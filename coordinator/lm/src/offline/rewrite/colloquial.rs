@@ -205,6 +205,9 @@ impl Rewriting<'_> {
 
     /// "two of the three rolls": two rolls.
     fn some_of_so_many(&mut self, index: usize) {
+        if self.starts(index, &["any", "one", "of"]) {
+            self.say(index, index + 1, &[]);
+        }
         let number = |at: usize| crate::offline::inflect::number(self.at(at)).is_some();
         if number(index) && self.starts(index + 1, &["of", "the"]) && number(index + 3) {
             let noun = (index + 5..index + 9).any(|at| self.noun_before(at).is_some());
