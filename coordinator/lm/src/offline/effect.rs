@@ -481,6 +481,7 @@ fn about_the_same(a: &Change, b: &Change) -> bool {
     }
 }
 
+mod beside;
 mod changing;
 pub(super) mod forbid;
 mod goals;

@@ -220,7 +220,7 @@ impl<'a> Discourse<'a> {
         found
     }
 
-    fn add(&mut self, kinds: Vec<String>, which: Which, text: &str) -> usize {
+    pub(super) fn add(&mut self, kinds: Vec<String>, which: Which, text: &str) -> usize {
         self.entities.push(Entity {
             kinds,
             which,
@@ -382,6 +382,7 @@ impl<'a> Discourse<'a> {
         let mut found = BTreeSet::new();
         for phrase in except {
             match &phrase.head {
+                Head::Noun(noun) if noun.kinds.iter().any(|kind| several::spared(phrase, kind).is_some()) => {}
                 Head::Noun(noun) if !noun.class => {
                     let here = noun.kinds.iter().find(|kind| self.scene.has(kind));
                     found.extend(here.or(noun.kinds.first()).cloned());

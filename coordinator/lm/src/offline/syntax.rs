@@ -129,6 +129,8 @@ pub struct Place {
     pub phrase: Phrase,
     /// Whether it is `under` or the like.
     pub under: bool,
+    /// Whether it is where something was, before it goes elsewhere.
+    pub was: bool,
     /// Whether it is `at`: there, if nothing else is said.
     pub there: bool,
     /// Whether it is `on top of`: not within.
@@ -148,6 +150,7 @@ impl Place {
             relation,
             phrase,
             under,
+            was: preposition == "in the place of",
             there: preposition == "at",
             on_top: matches!(preposition, "on top of" | "atop" | "to the top of"),
             over: preposition == "over",

@@ -344,67 +344,6 @@ impl<'a> Interpreter<'_, 'a> {
         self.add(entity, Change::Inside(place));
     }
 
-    /// "next to the toaster": on what the toaster stands on, or the likeliest surface.
-    fn put_beside(&mut self, clause: &Clause<'a>, at: &[Place], near: &Place) -> Spoken {
-        let objects = self.objects(clause, at, Some("pickupable"));
-        let mentioned = self.discourse.mention(&near.phrase, &[], None);
-        let Some(&first) = objects.first() else { return Spoken::default() };
-        let thing = self.discourse.entities[first].kind().to_owned();
-        let scene = self.discourse.scene;
-        let reference = mentioned.first().map(|&e| self.discourse.entities[e].kind().to_owned());
-        if near.there
-            && let Some(&place) = mentioned.first()
-            && reference.as_deref().is_some_and(|kind| scene.accepts(kind, &thing))
-        {
-            for &entity in &objects {
-                self.put_in(entity, place);
-            }
-            return Spoken { objects, places: vec![place], placed: true, ..Spoken::default() };
-        }
-        // What it is put next to may have been put somewhere itself.
-        let stands = mentioned.first().and_then(|&e| {
-            self.facts.iter().rev().find_map(|fact| match fact.change {
-                Change::Inside(place) if fact.entity == e => {
-                    Some(self.discourse.entities[place].kind().to_owned())
-                }
-                _ => None,
-            })
-        });
-        let stands = stands.filter(|kind| scene.accepts(kind, &thing));
-        let under =
-            reference.as_deref().filter(|_| near.under).and_then(|kind| self.discourse.lexicon.under(kind));
-        let stands_on = reference.as_deref().and_then(|kind| {
-            let object = scene.of_kind(kind).first()?;
-            let parents = object.parents.iter().filter_map(|parent| scene.named(parent));
-            parents
-                .map(|parent| parent.kind.as_str())
-                .find(|kind| *kind != "Floor" && scene.accepts(kind, &thing))
-        });
-        let mut surfaces = self.discourse.lexicon.beside(reference.as_deref());
-        let likely = surfaces.find(|kind| scene.surely_accepts(kind, &thing));
-        let kinds = self.discourse.entities[first].kinds.clone();
-        let likes = |kind| self.discourse.lexicon.likes(kind).iter().map(String::as_str);
-        let chosen = under
-            .into_iter()
-            .flat_map(|place| std::iter::once(place).chain(likes(place)))
-            .find(|place| kinds.iter().any(|kind| scene.accepts(place, kind)))
-            .or(stands.as_deref())
-            .or(stands_on)
-            .or(likely)
-            .map(str::to_owned);
-        let Some(chosen) = chosen else {
-            self.discourse.problem(format!("there is no surface for \"{}\"", clause.text), 0.3);
-            return Spoken { objects, ..Spoken::default() };
-        };
-        self.discourse
-            .assume(format!("the place by \"{}\" is taken to be the {chosen}", near.phrase.text), 0.8);
-        let place = self.discourse.place_of_kind(&chosen);
-        for &entity in &objects {
-            self.put_in(entity, place);
-        }
-        Spoken { objects, places: vec![place], placed: true, reached: mentioned }
-    }
-
     /// "on a lit burner": where none is lit now, it is to be lit.
     fn switch_on_what_is_lit(&mut self, phrase: &Phrase, places: &[usize]) {
         let on = Settings::from([("isToggled".to_owned(), crate::offline::yes())]);
@@ -434,22 +373,6 @@ impl<'a> Interpreter<'_, 'a> {
         };
         let mut homes = self.discourse.lexicon.homes(kind).filter(|home| scene.accepts(home, kind));
         homes.find(|home| !left(home)).map(str::to_owned)
-    }
-
-    /// The type of what a thing was said to be in, or lies in now.
-    fn where_it_was(&self, entity: usize) -> Option<String> {
-        let scene = self.discourse.scene;
-        let said = self.discourse.spoken.iter().find(|s| !s.placed && s.objects.contains(&entity));
-        if let Some(&place) = said.and_then(|spoken| spoken.places.first()) {
-            return Some(self.discourse.entities[place].kind().to_owned());
-        }
-        let object = scene.of_kind(self.discourse.entities[entity].kind()).first()?;
-        object
-            .parents
-            .iter()
-            .filter_map(|parent| scene.named(parent))
-            .map(|parent| parent.kind.clone())
-            .next()
     }
 }
 

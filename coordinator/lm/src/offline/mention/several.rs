@@ -2,7 +2,7 @@
 
 use super::{Discourse, Which};
 use crate::offline::lexicon::Noun;
-use crate::offline::syntax::{Phrase, Place, Quantity};
+use crate::offline::syntax::{Head, Phrase, Place, Quantity};
 
 impl Discourse<'_> {
     /// So many different objects: of one type if there are enough of it.
@@ -69,7 +69,12 @@ impl Discourse<'_> {
         for kind in kinds {
             let all = self.scene.of_kind(kind);
             let selected = self.selected(std::slice::from_ref(kind), phrase, at);
-            if all.len() == 1 {
+            let spared: usize = phrase.except.iter().filter_map(|left| spared(left, kind)).sum();
+            if spared > 0 {
+                for _ in spared..all.len() {
+                    found.push(self.add(vec![kind.clone()], Which::Any, &phrase.text));
+                }
+            } else if all.len() == 1 {
                 found.push(self.add(vec![kind.clone()], Which::Any, &phrase.text));
             } else if selected.is_empty() && except.is_empty() {
                 found.push(self.add(vec![kind.clone()], Which::All, &phrase.text));
@@ -180,5 +185,19 @@ impl Discourse<'_> {
             round += 1;
         }
         found
+    }
+}
+
+/// "all the cabinets except one", "all the vases but two vases": how many of a type are left out, whichever.
+pub(super) fn spared(left_out: &Phrase, kind: &str) -> Option<usize> {
+    match (&left_out.head, left_out.quantity) {
+        (Head::Pronoun { plural: false }, _) if left_out.text.starts_with("one") => Some(1),
+        (Head::Noun(noun), Quantity::Count(count)) if noun.kinds.iter().any(|of| of == kind) => Some(count),
+        (Head::Noun(noun), Quantity::One)
+            if left_out.text.starts_with("one ") && noun.kinds.iter().any(|of| of == kind) =>
+        {
+            Some(1)
+        }
+        _ => None,
     }
 }

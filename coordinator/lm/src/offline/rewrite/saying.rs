@@ -3,7 +3,7 @@
 use super::super::inflect::VerbForm;
 use super::{LONGEST_ASIDE, Rewriting, SHALL};
 use crate::offline::clause::is_going;
-use crate::offline::syntax::{LIQUIDS, is_determiner, preposition};
+use crate::offline::syntax::{LIQUIDS, Relation, is_determiner, preposition};
 
 /// Contractions with "not", apart.
 const DENIALS: [(&str, &str); 10] = [
@@ -119,6 +119,14 @@ impl Rewriting<'_> {
                 if resting(self.at(at)) && resting_so(at + 1) {
                     self.say(at, at + 1, &["be"]);
                 }
+            }
+            let near = |at: usize| {
+                preposition(&[self.at(at), self.at(at + 1), self.at(at + 2)])
+                    .is_some_and(|(relation, _)| relation == Relation::Near)
+            };
+            // "should be beside it": nothing is said of how it is.
+            if SHALL[..3].contains(&self.at(index)) && self.at(index + 1) == "be" && near(index + 2) {
+                self.say(index + 1, index + 2, &["go"]);
             }
             index += 1;
         }

@@ -5,14 +5,19 @@ use super::{LONGEST_ASIDE, Rewriting, SHALL};
 use crate::offline::clause::is_going;
 use crate::offline::syntax::is_determiner;
 
+/// How the grammar knows where something was before it goes elsewhere.
+const WHERE_IT_WAS: [&str; 4] = ["in", "the", "place", "of"];
+
 impl Rewriting<'_> {
-    /// "put the phone where the laptop was": beside it, as it were; "the box that was there": the box.
+    /// "put the phone where the laptop was": in its place; "the box that was there": the box.
     pub(super) fn where_things_were(&mut self) {
         let mut index = 1;
         while index < self.tokens.len() {
             let to = usize::from(self.at(index - 1) == "to");
+            let joined = (0..index).rev().find(|&at| self.at(at) == "and" || self.is_mark(at));
+            let another = joined.is_some_and(|at| self.at(at) == "and" && self.names_only(at + 1, index));
             let put = (to == 1 || self.noun_before(index).is_some() || is_going(self.at(index - 1)))
-                && self.puts_before(index - to);
+                && (another || self.puts_before(index - to));
             let being = |at: usize| {
                 ["was", "were", "stood"].contains(&self.at(at))
                     || ["is", "are"].contains(&self.at(at)) && self.at(at + 1) == "now"
@@ -26,7 +31,8 @@ impl Rewriting<'_> {
             {
                 let more = usize::from(["before", "now"].contains(&self.at(was + 1)));
                 self.say(was, was + 1 + more, &[]);
-                self.say(index - to, index + 1, &["beside"]);
+                self.say(index - to, index + 1, &WHERE_IT_WAS);
+            } else if self.place_taken(index) || self.replaced(index) {
             } else if ["that", "which"].contains(&self.at(index))
                 && ["was", "is", "were", "are", "stood"].contains(&self.at(index + 1))
                 && self.at(index + 2) == "there"
@@ -37,6 +43,77 @@ impl Rewriting<'_> {
             }
             index += 1;
         }
+    }
+
+    /// "the bread takes its place", "in the tomato's place": it goes where that was.
+    fn place_taken(&mut self, index: usize) -> bool {
+        let taken = ["take", "takes", "taking"].contains(&self.at(index));
+        if !taken && !(self.at(index) == "in" && self.noun_before(index).is_some()) {
+            return false;
+        }
+        let of = |at: usize| ["the", "its", "their"].contains(&self.at(at)) && self.at(at + 1) == "place";
+        let (end, whose): (usize, Vec<String>) = if of(index + 1) && self.at(index + 1) == "the" {
+            if self.at(index + 3) != "of" || !taken {
+                return false;
+            }
+            (index + 4, Vec::new())
+        } else if of(index + 1) {
+            let it = if self.at(index + 1) == "its" { "it" } else { "them" };
+            (index + 3, vec![it.to_owned()])
+        } else {
+            let place = (index + 2..index + 6)
+                .find(|&at| self.at(at) == "place" && self.at(at - 1) == crate::offline::text::POSSESSIVE);
+            let Some(place) = place.filter(|_| is_determiner(self.at(index + 1))) else { return false };
+            (place + 1, self.words(index + 1..place - 1))
+        };
+        let shall = taken && SHALL.contains(&self.at(index - 1));
+        let told = taken && !shall && self.noun_before(index).is_some();
+        if taken && !shall && !told {
+            return false;
+        }
+        // "takes its place in the fridge" says where it is as well.
+        let said = self.is_place(end);
+        let mut words: Vec<&str> = Vec::new();
+        if taken {
+            words.push(if shall { "go" } else { "goes" });
+        }
+        if !said {
+            words.extend(WHERE_IT_WAS);
+            words.extend(whose.iter().map(String::as_str));
+        }
+        let words: Vec<String> = words.into_iter().map(str::to_owned).collect();
+        self.say_all(index, end, &words);
+        // "let the bread take its place"
+        if let Some(lets) = (self.clause_start(index)..index).find(|&at| told && self.at(at) == "let") {
+            self.say(lets, lets + 1, &[]);
+        }
+        true
+    }
+
+    /// "replace the egg with the tomato": the tomato goes where the egg was.
+    fn replaced(&mut self, index: usize) -> bool {
+        let order = ["replace", "exchange", "substitute"].contains(&self.at(index - 1)) && self.is_mark(index - 2);
+        let end = self.next_mark(index, &[",", "."]);
+        let joint = if self.at(index - 1) == "substitute" { "for" } else { "with" };
+        let with = (index + 1..end).find(|&at| [joint, "by"].contains(&self.at(at)));
+        let Some(with) = with.filter(|_| order) else { return false };
+        // "replace the egg in the fridge with …"
+        let lies = (index..with).find(|&at| self.is_place(at)).unwrap_or(with);
+        if !self.names_only(index, lies) || lies < with && !self.names_only(lies + 1, with) {
+            return false;
+        }
+        let until = (with + 2..end)
+            .find(|&at| self.at(at) == "and" || self.is_place(at) || self.at(at) == "then")
+            .unwrap_or(end);
+        if self.is_place(until) || !self.names_only(with + 1, until) {
+            return false;
+        }
+        let (first, second) = (self.words(index..lies), self.words(with + 1..until));
+        let (comes, gone) = if joint == "for" { (first, second) } else { (second, first) };
+        let was = WHERE_IT_WAS.map(str::to_owned);
+        let words = [vec!["put".to_owned()], comes, was.to_vec(), gone].concat();
+        self.say_all(index - 1, until, &words);
+        true
     }
 
     /// Whether what stands before a place is put there: an order with no place of its own.

@@ -3,7 +3,7 @@
 use super::Relation;
 
 /// Prepositions, the longer first.
-const PREPOSITIONS: [(&str, Relation); 94] = [
+const PREPOSITIONS: [(&str, Relation); 95] = [
     ("along side of", Relation::Near),
     ("along side", Relation::Near),
     ("alongside", Relation::Near),
@@ -12,6 +12,7 @@ const PREPOSITIONS: [(&str, Relation); 94] = [
     ("on either side of", Relation::Near),
     ("on both sides of", Relation::Near),
     ("in the front of", Relation::Near),
+    ("in the place of", Relation::Near),
     ("on top the", Relation::In),
     ("next the", Relation::Near),
     ("next a", Relation::Near),
