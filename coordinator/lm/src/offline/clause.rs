@@ -345,7 +345,7 @@ impl<'a> Parser<'a> {
             }
             "," if self.another_wish_follows(clause, start) => true,
             "," if only_pronouns(clause) && self.ahead_after_things().goal_follows() => true,
-            "," | "and" if !self.switches && self.ahead_after_things().switched_follows() => true,
+            "," | "and" if !self.switches && self.switched_thing_follows() => true,
             "," | "and" => {
                 let mut ahead = self.ahead(1);
                 if ahead.peek() == Some("and") || ahead.peek() == Some(",") {

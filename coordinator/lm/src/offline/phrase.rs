@@ -9,7 +9,7 @@ use super::lexicon::{LONGEST, Lexicon, Noun};
 use super::syntax::{Head, Phrase, Quantity, is_determiner, is_function_word, preposition};
 
 /// Noun phrases within noun phrases go no deeper than this.
-const DEEPEST: usize = 4;
+pub(super) const DEEPEST: usize = 4;
 
 /// What has been read before the head.
 struct Front {

@@ -69,6 +69,19 @@ impl<'a> Parser<'a> {
         ahead
     }
 
+    /// "chill the wine and the lights out": whether things that can be switched come next, and how; not "take the egg and
+    /// the bread out".
+    pub(in crate::offline) fn switched_thing_follows(&self) -> bool {
+        let mut ahead = self.ahead(0);
+        ahead.skip_joins();
+        let things = ahead.phrases(super::super::phrase::DEEPEST);
+        let carried = |phrase: &Phrase| match &phrase.head {
+            Head::Noun(noun) => self.is_movable(phrase) && !self.can_be(noun, "toggleable"),
+            _ => false,
+        };
+        !things.is_empty() && !things.iter().any(carried) && ahead.switched_follows()
+    }
+
     /// Whether what completes a verb stands here: "off", "out".
     pub(super) fn complements_follow(&self) -> bool {
         let ends =

@@ -230,13 +230,11 @@ impl Discourse<'_> {
         }
         // "cut the bread and the tomato with the knife and wash it": the tool, where several things were cut.
         if let Some(spoken) = last.filter(|spoken| !plural && spoken.objects.len() > 1)
-            && let [tool] = spoken.reached.as_slice()
-            && fits(self, &[*tool])
             && spoken.objects.iter().any(|&e| self.entities[e].text != self.entities[spoken.objects[0]].text)
-            && self.affords(self.entities[*tool].kind(), "pickupable")
-            && !self.affords(self.entities[*tool].kind(), "receptacle")
+            && let Some(tool) = self.tool_in_use()
+            && fits(self, &[tool])
         {
-            return vec![*tool];
+            return vec![tool];
         }
         if plural {
             let mut all: Vec<usize> = Vec::new();
@@ -302,5 +300,15 @@ impl Discourse<'_> {
         let word = if plural { "them" } else { "it" };
         self.problem(format!("it is not said what \"{word}\" is"), 0.3);
         Vec::new()
+    }
+
+    /// What was used last and was named for nothing else: "cut the bread with the knife", "take the knife and cut the
+    /// bread with it".
+    fn tool_in_use(&self) -> Option<usize> {
+        let mut clauses = self.spoken.iter().rev().skip_while(|s| s.objects.is_empty() && s.places.is_empty());
+        let used = &clauses.next()?.reached;
+        let [tool] = (if used.is_empty() { &clauses.next()?.reached } else { used }).as_slice() else { return None };
+        let kind = self.entities[*tool].kind();
+        (self.affords(kind, "pickupable") && !self.affords(kind, "receptacle")).then_some(*tool)
     }
 }

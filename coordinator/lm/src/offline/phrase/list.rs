@@ -71,11 +71,8 @@ impl Parser<'_> {
     /// ", each goes into the bowl", "a box with a bat, the ball goes …": something is said of what comes next.
     fn another_subject(&self, of_contents: bool) -> bool {
         // "chill the wine and the lights out"
-        if !self.switches || of_contents {
-            let mut ahead = self.ahead(0);
-            if ahead.phrase(DEEPEST).is_some() && ahead.switched_follows() {
-                return true;
-            }
+        if (!self.switches || of_contents) && self.switched_thing_follows() {
+            return true;
         }
         let pronoun =
             self.peek().is_some_and(|word| ["each", "both", "they", "it", "these", "those"].contains(&word));
