@@ -150,6 +150,7 @@ impl<'d, 'a> Interpreter<'d, 'a> {
         for word in clause.unknown.iter().skip(usize::from(clause.verbs.is_empty())) {
             self.discourse.assume(format!("passed over \"{word}\""), 0.85);
         }
+        self.note_what_cannot_be();
         let kind_of = |e: usize| self.discourse.entities[e].kind().to_owned();
         let known: Vec<String> = spoken.reached.iter().map(|&e| kind_of(e)).collect();
         let besides = self.named_besides(clause);

@@ -347,7 +347,7 @@ impl<'a> Discourse<'a> {
             .unwrap_or_default()
     }
 
-    fn affords(&self, kind: &str, affordance: &str) -> bool {
+    pub(super) fn affords(&self, kind: &str, affordance: &str) -> bool {
         self.scene.affords(kind, affordance)
             || (affordance == "toggleable" && self.lexicon.control(kind).is_some_and(|c| self.scene.has(c)))
     }

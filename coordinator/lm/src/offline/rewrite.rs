@@ -314,7 +314,7 @@ impl Rewriting<'_> {
                     && (["need", "needs", "should", "must", "have", "has"].contains(&next) || is_going(next))
                     && self.noun_before(index).is_some();
             let same = before == "the" && word == "same" && self.lexicon.noun(&[next]).is_some();
-            let out = ["stay", "stays", "left", "kept", "stand"].contains(&before)
+            let out = ["stay", "stays", "left", "kept", "stand", "all"].contains(&before)
                 && word == "out"
                 && self.is_place(index + 1);
             // "the apple and the bread should both be sliced"

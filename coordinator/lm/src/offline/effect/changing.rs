@@ -67,6 +67,17 @@ impl<'a> Interpreter<'_, 'a> {
         Spoken { objects: changed, places, reached, ..Spoken::default() }
     }
 
+    /// "take off the tomato": a thing that is carried and cannot be so is not to be so.
+    pub(super) fn note_what_cannot_be(&mut self) {
+        for fact in self.facts.iter().filter(|fact| fact.clause == self.clause) {
+            let Change::State(property, value) = &fact.change else { continue };
+            let whole = property == "isBroken" && *value == super::super::no();
+            if !whole && self.discourse.affords(self.discourse.entities[fact.entity].kind(), "pickupable") {
+                self.discourse.note_if_unable(fact.entity, property);
+            }
+        }
+    }
+
     /// "heat the water in the mug": the mug is heated.
     pub(super) fn lies_in_a_vessel(&self, clause: &Clause<'a>) -> Option<Clause<'a>> {
         let scene = self.discourse.scene;

@@ -129,22 +129,29 @@ impl Discourse<'_> {
             self.assume(format!("only slices of the {kind} can be cooked"), 0.99);
         }
         for property in states.keys() {
-            let needed = match property.as_str() {
-                "isOpen" => "openable",
-                "isToggled" => "toggleable",
-                "isSliced" => "sliceable",
-                "isBroken" => "breakable",
-                _ => continue,
-            };
-            if !self.scene.affords(&kind, needed) && !self.entities[entity].kinds.is_empty() {
-                let text = self.entities[entity].text.clone();
-                self.problem(format!("\"{text}\" ({kind}) is not {needed}"), 0.3);
-            }
+            self.note_if_unable(entity, property);
         }
         if verb.set.contains_key("isCooked") && states.contains_key("temperature") {
             self.assume(format!("cooking the {kind} means heating it"), 0.97);
         }
         states
+    }
+
+    /// Says of a thing that is to be so what it cannot be: "the tomato off".
+    pub fn note_if_unable(&mut self, entity: usize, property: &str) {
+        let needed = match property {
+            "isOpen" => "openable",
+            "isToggled" => "toggleable",
+            "isSliced" => "sliceable",
+            "isBroken" => "breakable",
+            _ => return,
+        };
+        let this = &self.entities[entity];
+        let able = self.scene.affords(this.kind(), needed);
+        let text = format!("\"{}\" ({}) is not {needed}", this.text, this.kind());
+        if !able && !this.kinds.is_empty() && !self.problems.contains(&text) {
+            self.problem(text, 0.3);
+        }
     }
 
     /// "put a full cup on the table" where no cup is full: it is asked for.

@@ -15,7 +15,8 @@ impl Rewriting<'_> {
                 || self.a_dark_room(index)
                 || self.done_without(index)
                 || self.is_to_shine(index)
-                || self.heat_turned_on(index);
+                || self.heat_turned_on(index)
+                || self.put_on_the_stove(index);
             self.none_left_open(index);
             index += 1;
         }
@@ -126,5 +127,23 @@ impl Rewriting<'_> {
                 if no == 3 && self.at(index) == "none" { &["all", "the"] } else { &["every"] };
             self.say(index, index + no, every);
         }
+    }
+
+    /// "put the kettle on": to boil; "put the pan on": on the stove.
+    fn put_on_the_stove(&mut self, index: usize) -> bool {
+        let puts = ["put", "pop", "stick", "get", "set"].contains(&self.at(index)) && self.opens_part(index);
+        let on = index + 3;
+        let ends = self.is_mark(on + 1) || ["and", "for", "to", "then", "before"].contains(&self.at(on + 1));
+        if !puts || self.at(on) != "on" || !ends || !is_determiner(self.at(index + 1)) {
+            return false;
+        }
+        match self.at(index + 2) {
+            "kettle" => self.say(index, on + 1, &["boil", "the", "kettle"]),
+            "pan" | "pot" | "skillet" | "saucepan" => {
+                self.say(on + 1, on + 1, &["the", "stove"]);
+            }
+            _ => return false,
+        }
+        true
     }
 }
