@@ -484,6 +484,7 @@ fn about_the_same(a: &Change, b: &Change) -> bool {
 
 mod beside;
 mod changing;
+mod clearing;
 pub(super) mod forbid;
 mod goals;
 mod going;

@@ -382,7 +382,8 @@ impl<'a> Discourse<'a> {
         let mut found = BTreeSet::new();
         for phrase in except {
             match &phrase.head {
-                Head::Noun(noun) if noun.kinds.iter().any(|kind| several::spared(phrase, kind).is_some()) => {}
+                Head::Noun(noun) if noun.kinds.iter().any(|kind| several::spared(phrase, kind).is_some()) => {
+                }
                 Head::Noun(noun) if !noun.class => {
                     let here = noun.kinds.iter().find(|kind| self.scene.has(kind));
                     found.extend(here.or(noun.kinds.first()).cloned());

@@ -342,6 +342,9 @@ fn one_clause<'a>(
         interpreter.discourse.spoken.push(Spoken::default());
         return;
     }
+    if interpreter.clears(index, clauses) {
+        return;
+    }
     // "empty the sink by moving the pan to the stove": what comes next says how.
     let by = clauses.get(index + 1).is_some_and(|next| next.words.first().is_some_and(|word| word == "by"));
     let so =

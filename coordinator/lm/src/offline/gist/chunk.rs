@@ -123,6 +123,21 @@ impl Chunk {
     }
 }
 
+/// Words that say nothing, behind which an order may begin.
+const OPENERS: [&str; 11] = [
+    "please",
+    "you",
+    "kindly",
+    "finally",
+    "lastly",
+    "also",
+    "afterwards",
+    "afterward",
+    "later",
+    "next",
+    "meanwhile",
+];
+
 /// Tells the parts.
 pub struct Chunker<'a> {
     words: &'a [String],
@@ -150,10 +165,10 @@ impl<'a> Chunker<'a> {
             // "when that is done light the candle"
             let opens = aside
                 || found.last().is_none_or(|last| {
-                last.ends_part()
-                    || matches!(last, Chunk::Wish)
-                    || matches!(last, Chunk::Other(word) if ["please", "you", "kindly", "finally", "lastly", "also"].contains(&word.as_str()))
-            });
+                    last.ends_part()
+                        || matches!(last, Chunk::Wish)
+                        || matches!(last, Chunk::Other(word) if OPENERS.contains(&word.as_str()))
+                });
             let said_beside = self.aside(at, opens);
             aside = said_beside.is_some_and(|_| ["when", "once", "after"].contains(&self.at(at)));
             let (chunk, length) = match said_beside {

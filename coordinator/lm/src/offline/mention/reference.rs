@@ -305,9 +305,12 @@ impl Discourse<'_> {
     /// What was used last and was named for nothing else: "cut the bread with the knife", "take the knife and cut the
     /// bread with it".
     fn tool_in_use(&self) -> Option<usize> {
-        let mut clauses = self.spoken.iter().rev().skip_while(|s| s.objects.is_empty() && s.places.is_empty());
+        let mut clauses =
+            self.spoken.iter().rev().skip_while(|s| s.objects.is_empty() && s.places.is_empty());
         let used = &clauses.next()?.reached;
-        let [tool] = (if used.is_empty() { &clauses.next()?.reached } else { used }).as_slice() else { return None };
+        let [tool] = (if used.is_empty() { &clauses.next()?.reached } else { used }).as_slice() else {
+            return None;
+        };
         let kind = self.entities[*tool].kind();
         (self.affords(kind, "pickupable") && !self.affords(kind, "receptacle")).then_some(*tool)
     }
