@@ -63,6 +63,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     text.places_after_places();
     text.duties();
     text.whose_slices();
+    text.whose_door();
     text.known_by_what_they_do();
     text.slices();
     text.liquids();

@@ -159,12 +159,6 @@ impl Rewriting<'_> {
 
     /// "the lamp of the desk": the desk lamp.
     fn of_the_desk(&mut self, index: usize) {
-        let lid = ["lid", "door", "cover"].contains(&self.at(index + 1));
-        if self.at(index) == POSSESSIVE && lid && index > 0 && self.noun_before(index).is_some() {
-            // "the laptop's lid"
-            self.say(index, index + 2, &[]);
-            return;
-        }
         let of = self.at(index) == "of" && is_determiner(self.at(index + 1)) && index > 0;
         let name = [self.at(index + 2).to_owned(), self.at(index.wrapping_sub(1)).to_owned()];
         let known = self.lexicon.noun(&[&name[0], &name[1]]).is_some();

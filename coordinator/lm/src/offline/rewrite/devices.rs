@@ -3,12 +3,14 @@
 
 use super::Rewriting;
 use crate::offline::syntax::is_determiner;
+use crate::offline::text::POSSESSIVE;
 
 impl Rewriting<'_> {
     /// All of them.
     pub(super) fn devices(&mut self) {
         let mut index = 0;
         while index < self.tokens.len() {
+            self.lid_of(index);
             self.runs_meanwhile(index);
             self.lights_thrown_off(index);
             let _ = self.in_operation(index)
@@ -19,6 +21,33 @@ impl Rewriting<'_> {
                 || self.put_on_the_stove(index);
             self.none_left_open(index);
             index += 1;
+        }
+    }
+
+    /// "the laptop lid down", "the laptop's lid": the laptop, closed.
+    fn lid_of(&mut self, index: usize) {
+        let own = usize::from(index > 0 && self.at(index - 1) == POSSESSIVE);
+        let lid = ["lid", "cover", "flap"].contains(&self.at(index)) || own > 0 && self.at(index) == "door";
+        let compound = self.noun_before(index + 1).is_some_and(|noun| noun.len() > 1);
+        if !lid || index <= own || compound || self.noun_before(index - own).is_none() {
+            return;
+        }
+        self.say(index - own, index + 1, &[]);
+        let from = index - own;
+        if let Some(lifts) = (from.saturating_sub(5)..from).find(|&at| ["lift", "raise"].contains(&self.at(at)))
+            && self.names_only(lifts + 1, from)
+        {
+            self.say(lifts, lifts + 1, &["open"]);
+            return;
+        }
+        let being = (from..).take_while(|&at| ["is", "should", "be", "must"].contains(&self.at(at))).count();
+        let way = from + being;
+        if self.is_mark(way + 1) || ["and", "then", "but"].contains(&self.at(way + 1)) {
+            match self.at(way) {
+                "down" => self.say(way, way + 1, &["closed"]),
+                "up" => self.say(way, way + 1, &["open"]),
+                _ => {}
+            }
         }
     }
 

@@ -1,6 +1,6 @@
 //! Relative clauses that only say which thing is meant, or what is to become of its parts.
 
-use super::Rewriting;
+use super::{Rewriting, SHALL};
 use crate::offline::clause::is_going;
 use crate::offline::inflect::VerbForm;
 use crate::offline::syntax::is_determiner;
@@ -22,6 +22,27 @@ impl Rewriting<'_> {
             }
             let all = usize::from(["all", "both", "each"].contains(&self.at(index + 2)));
             self.say(index - comma, index + 2 + all, &[".", "the", "slices"]);
+            index += 1;
+        }
+    }
+
+    /// "the fridge, whose door must be shut": the fridge must be.
+    pub(super) fn whose_door(&mut self) {
+        let mut index = 1;
+        while index < self.tokens.len() {
+            let comma = usize::from(self.at(index - 1) == ",");
+            let door = ["door", "doors", "lid", "cover", "screen", "flap"].contains(&self.at(index + 1));
+            let told = SHALL.contains(&self.at(index + 2)) || ["stays", "remains"].contains(&self.at(index + 2));
+            let noun = if self.at(index) == "whose" { self.noun_before(index - comma) } else { None };
+            if let Some(noun) = noun.filter(|_| door && told) {
+                let mut words = vec![".".to_owned(), "the".to_owned()];
+                words.extend(noun);
+                let shall = ["is", "are"].contains(&self.at(index + 2));
+                if shall {
+                    words.extend(["should".to_owned(), "be".to_owned()]);
+                }
+                self.say_all(index - comma, index + 2 + usize::from(shall), &words);
+            }
             index += 1;
         }
     }
