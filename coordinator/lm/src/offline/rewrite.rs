@@ -31,6 +31,7 @@ mod slices;
 mod slips;
 mod speech;
 mod states;
+mod subjects;
 mod switching;
 mod timing;
 mod topic;
@@ -50,6 +51,7 @@ const SHALL: [&str; 14] = [
 pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
+    text.members_of_the_team();
     text.slips();
     text.left_out();
     text.meals();
@@ -187,49 +189,6 @@ struct Rewriting<'l> {
 }
 
 impl Rewriting<'_> {
-    /// "another the spoon", "a third should …": somebody does it, and no matter who.
-    fn subjects(&mut self) {
-        const WHO: [&[&str]; 17] = [
-            &["one", "robot"],
-            &["a", "robot"],
-            &["another", "robot"],
-            &["the", "other", "robot"],
-            &["somebody"],
-            &["one", "of", "you"],
-            &["one", "of", "them"],
-            &["another", "of", "you"],
-            &["a", "second", "one"],
-            &["a", "third", "one"],
-            &["a", "second"],
-            &["a", "third"],
-            &["a", "fourth"],
-            &["the", "second"],
-            &["the", "third"],
-            &["another"],
-            &["the", "other"],
-        ];
-        let mut index = 0;
-        while index < self.tokens.len() {
-            let opens = index == 0 || [",", ".", "and", "while", "then"].contains(&self.at(index - 1));
-            let who = WHO.iter().find(|who| opens && self.starts(index, who));
-            if let Some(length) = who.map(|who| who.len()) {
-                let next = self.at(index + length);
-                let ordered = ["should", "must", "shall", "can", "could", "will"].contains(&next);
-                let of_you = length == 3 && next.ends_with('s') && !self.lexicon.verbs(next).is_empty();
-                let doing = self.at(index + length + 1);
-                if ["is", "are"].contains(&next)
-                    && doing.ends_with("ing")
-                    && !self.lexicon.verbs(doing).is_empty()
-                {
-                    self.say(index, index + length + 1, &[]);
-                } else if is_determiner(next) || ordered && length > 1 || of_you {
-                    self.say(index, index + length + usize::from(ordered), &[]);
-                }
-            }
-            index += 1;
-        }
-    }
-
     /// "Prepare the desk: put the pen on it": "it" is what the heading names.
     fn name_it(&mut self, start: usize, colon: usize, end: usize) {
         let first = (start..colon).find(|&at| is_determiner(self.at(at)));

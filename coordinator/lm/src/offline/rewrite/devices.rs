@@ -34,7 +34,8 @@ impl Rewriting<'_> {
         }
         self.say(index - own, index + 1, &[]);
         let from = index - own;
-        if let Some(lifts) = (from.saturating_sub(5)..from).find(|&at| ["lift", "raise"].contains(&self.at(at)))
+        if let Some(lifts) =
+            (from.saturating_sub(5)..from).find(|&at| ["lift", "raise"].contains(&self.at(at)))
             && self.names_only(lifts + 1, from)
         {
             self.say(lifts, lifts + 1, &["open"]);

@@ -32,7 +32,8 @@ impl Rewriting<'_> {
         while index < self.tokens.len() {
             let comma = usize::from(self.at(index - 1) == ",");
             let door = ["door", "doors", "lid", "cover", "screen", "flap"].contains(&self.at(index + 1));
-            let told = SHALL.contains(&self.at(index + 2)) || ["stays", "remains"].contains(&self.at(index + 2));
+            let told =
+                SHALL.contains(&self.at(index + 2)) || ["stays", "remains"].contains(&self.at(index + 2));
             let noun = if self.at(index) == "whose" { self.noun_before(index - comma) } else { None };
             if let Some(noun) = noun.filter(|_| door && told) {
                 let mut words = vec![".".to_owned(), "the".to_owned()];
