@@ -8,6 +8,8 @@ use super::scene::Scene;
 use super::syntax::is_determiner;
 use super::text::Token;
 
+mod misplaced;
+
 /// Who is blamed.
 const BLAMED: [&str; 10] =
     ["who", "whoever", "which", "what", "why", "some", "someone", "somebody", "youve", "you"];
@@ -195,9 +197,22 @@ impl Complaint<'_> {
                     self.tokens.splice(from..to, said);
                     from += length + 1;
                 }
-                None => from = to + 1,
+                None => from = self.put_away(from, to) + 1,
             }
         }
+    }
+
+    /// "who left the mug in the sink?": it is to be put away; where the part ends then.
+    fn put_away(&mut self, from: usize, to: usize) -> usize {
+        let Some(misplaced) = self.misplaced(from, to) else { return to };
+        let word = |word: &str| Token { text: word.to_owned(), typed: word.to_owned() };
+        let mut said = vec![word("put"), word("away")];
+        said.extend_from_slice(&self.tokens[misplaced.thing]);
+        said.push(word("from"));
+        said.extend_from_slice(&self.tokens[misplaced.place]);
+        let end = from + said.len();
+        self.tokens.splice(from..to, said);
+        end
     }
 
     /// "which of you left the lid up?": what mends it, and from where to where the thing is named.

@@ -95,6 +95,8 @@ fn judge(answer: &Answer, goal: &str, objects: &[ObjectView]) -> (bool, String) 
     for entry in decomposition.subtasks.iter().filter(|s| s.lasting).flat_map(|s| &s.goal) {
         facts(entry, objects, &mut got);
     }
+    // What nothing undoes is as it was: said or not, it is the same goal.
+    got.retain(|(fact, _)| !fact.ends_with(":uncut") && !fact.ends_with(":raw"));
     let mut got = numbered(got);
     got.sort();
     let told = format!("got  {} ({:.2})", got.join("; ").replace(" #1", ""), decomposition.confidence);
@@ -167,8 +169,8 @@ fn word(property: &str, value: &PropertyValue) -> String {
         ("isToggled", PropertyValue::Flag(on)) => if *on { "on" } else { "off" }.to_owned(),
         ("isOpen", PropertyValue::Flag(open)) => if *open { "open" } else { "closed" }.to_owned(),
         ("isFilledWithLiquid", PropertyValue::Flag(full)) => if *full { "full" } else { "empty" }.to_owned(),
-        ("isSliced", _) => "sliced".to_owned(),
-        ("isCooked", _) => "cooked".to_owned(),
+        ("isSliced", PropertyValue::Flag(sliced)) => if *sliced { "sliced" } else { "uncut" }.to_owned(),
+        ("isCooked", PropertyValue::Flag(cooked)) => if *cooked { "cooked" } else { "raw" }.to_owned(),
         ("isPickedUp", _) => "held".to_owned(),
         ("isBroken", PropertyValue::Flag(broken)) => if *broken { "broken" } else { "whole" }.to_owned(),
         (_, PropertyValue::Word(word)) => word.to_lowercase(),

@@ -12,7 +12,9 @@ const CLEARS: [&str; 9] =
 const TABLEWARE: [&str; 8] = ["Plate", "Bowl", "Cup", "Mug", "Fork", "Spoon", "Knife", "ButterKnife"];
 
 /// Where things may stand that are kept nowhere.
-const ANYWHERE: [&str; 6] = ["Shelf", "CounterTop", "Dresser", "SideTable", "Desk", "DiningTable"];
+pub(super) const ANYWHERE: [&str; 10] = [
+    "Shelf", "CounterTop", "Dresser", "SideTable", "Desk", "DiningTable", "CoffeeTable", "Sofa", "ArmChair", "Bed",
+];
 
 impl<'a> Interpreter<'_, 'a> {
     /// "clear the coffee table": what lies on it is put away. False where that is no surface or nothing lies on it.

@@ -5,6 +5,7 @@ use super::super::mention::{Spoken, Which};
 use super::super::phrase::is_one_of;
 use super::super::scene::is_in_state;
 use super::super::syntax::{Clause, Head, Link, Phrase, Place, Relation};
+use super::clearing::ANYWHERE;
 use super::{Change, Interpreter};
 
 impl<'a> Interpreter<'_, 'a> {
@@ -372,7 +373,13 @@ impl<'a> Interpreter<'_, 'a> {
             from.iter().any(of)
         };
         let mut homes = self.discourse.lexicon.homes(kind).filter(|home| scene.accepts(home, kind));
-        homes.find(|home| !left(home)).map(str::to_owned)
+        let home = homes.find(|home| !left(home)).map(str::to_owned);
+        // What may not stay where it is kept goes elsewhere.
+        let elsewhere = || {
+            let free = |place: &&str| !left(place) && scene.accepts(place, kind);
+            ANYWHERE.into_iter().find(free).map(str::to_owned)
+        };
+        home.or_else(|| from.iter().any(|place| place.relation == Relation::From).then(elsewhere)?)
     }
 }
 

@@ -81,6 +81,11 @@ impl Rewriting<'_> {
                     || word == "may" && ["go", "come", "move"].contains(&next))
             {
                 self.say(index, index + 1, &["should"]);
+            } else if subject
+                && ["cannot", "cant"].contains(&word)
+                && (["stay", "be", "remain"].contains(&next) || resting(next))
+            {
+                self.say(index, index + 1, &["should", "not"]);
             } else if ["is", "are"].contains(&word) && self.starts(index + 1, &["not", "to"]) {
                 self.say(index, index + 3, &["should", "not"]);
             } else if ["is", "are", "has", "have", "needs", "need", "ought"].contains(&word)
