@@ -33,6 +33,7 @@ mod speech;
 mod states;
 mod subjects;
 mod switching;
+mod terse;
 mod timing;
 mod topic;
 mod whereabouts;
@@ -52,6 +53,7 @@ pub fn rewritten(tokens: Vec<Token>, lexicon: &Lexicon) -> Vec<Token> {
     let mut text = Rewriting { tokens, lexicon };
     text.contractions();
     text.members_of_the_team();
+    text.terse();
     text.slips();
     text.left_out();
     text.meals();
