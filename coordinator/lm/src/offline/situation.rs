@@ -9,6 +9,7 @@ use serde::Deserialize;
 use super::effect::{Change, Interpreter};
 use super::lexicon::{LONGEST, Lexicon, Settings, squash};
 use super::mention::{Spoken, Which};
+use super::scene::is_in_state;
 use super::syntax::Clause;
 use super::trigger::{Said, Trigger, TriggerWords};
 
@@ -272,10 +273,16 @@ impl Interpreter<'_, '_> {
         let mut here = template.one.iter().filter(|kind| scene.has(kind));
         let one = here
             .clone()
-            .find(named)
-            .or_else(|| here.clone().find(|kind| self.stands_at_what_is_named(kind, words)));
-        let one = one.or_else(|| here.next());
-        for kind in one.into_iter().chain(template.one_of_each.iter().filter(|kind| scene.has(kind))) {
+            .find(|kind| self.stands_at_what_is_named(kind, words))
+            .or_else(|| here.clone().find(named));
+        let one = one.or_else(|| here.clone().next());
+        // Where the light is on and it is still too dark, a lamp is wanted besides.
+        let is_so = |kind: &&String| {
+            let objects = scene.of_kind(kind);
+            !template.is.is_empty() && objects.iter().all(|object| is_in_state(object, &template.is))
+        };
+        let besides = one.filter(is_so).and_then(|_| here.find(|kind| !is_so(kind)));
+        for kind in one.into_iter().chain(besides).chain(template.one_of_each.iter().filter(|kind| scene.has(kind))) {
             found.push(self.discourse.entity(kind, Which::Any));
         }
         found

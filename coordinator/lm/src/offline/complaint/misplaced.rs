@@ -115,7 +115,7 @@ impl Complaint<'_> {
         let (at, length) = (start + 1..to).find_map(|at| near(at).map(|(_, length)| (at, length)))?;
         let passed = |at: usize| {
             LIES.contains(&self.at(at))
-                || ["doesnt", "dont", "does", "not", "belong", "live", "has", "have", "no", "business", "place"]
+                || ["doesnt", "dont", "does", "do", "not", "belong", "live", "has", "have", "no", "business", "place"]
                     .contains(&self.at(at))
                 || ["shouldnt", "should", "really", "to", "left", "been", "down"].contains(&self.at(at))
         };
