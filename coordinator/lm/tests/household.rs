@@ -6,7 +6,7 @@ use judge::Kind;
 use lamma_lm::Offline;
 
 /// Sentences, and which part of them at least must be read as they are meant.
-const FILES: [(&str, &[(Kind, f64)]); 10] = [
+const FILES: [(&str, &[(Kind, f64)]); 12] = [
     (include_str!("data/household.txt"), &[(Kind::Plain, 0.95), (Kind::Vague, 0.95), (Kind::Asks, 0.85)]),
     (include_str!("data/workers.txt"), &[(Kind::Plain, 0.88), (Kind::Vague, 0.77), (Kind::Asks, 0.95)]),
     (include_str!("data/mixed.txt"), &[(Kind::Plain, 0.65), (Kind::Vague, 0.5)]),
@@ -14,6 +14,8 @@ const FILES: [(&str, &[(Kind, f64)]); 10] = [
     (include_str!("data/strangers.txt"), &[(Kind::Plain, 0.65)]),
     (include_str!("data/authors.txt"), &[(Kind::Plain, 0.66)]),
     (include_str!("data/homes.txt"), &[(Kind::Plain, 0.85), (Kind::Vague, 0.95)]),
+    (include_str!("data/crowd.txt"), &[(Kind::Plain, 0.56), (Kind::Vague, 0.78)]),
+    (include_str!("data/guests.txt"), &[(Kind::Plain, 0.7), (Kind::Vague, 0.55)]),
     (include_str!("data/visitors.txt"), &[(Kind::Plain, 0.66), (Kind::Vague, 0.7)]),
     (include_str!("data/wordings.txt"), &[(Kind::Plain, 0.93), (Kind::Vague, 0.93)]),
     (include_str!("data/commands.txt"), &[(Kind::Vague, 0.86)]),

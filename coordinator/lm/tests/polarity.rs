@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-use lamma_domains::goal::PropertyValue;
+use lamma_domains::goal::{Content, PropertyValue};
 use lamma_lm::{Answer, ObjectView, Offline, Request};
 
 const SCENES: [&str; 4] = ["FloorPlan6", "FloorPlan201", "FloorPlan301", "FloorPlan401"];
@@ -74,6 +74,22 @@ const OPEN: [&str; 6] =
 const CLOSE: [&str; 6] =
     ["close X", "X closed", "leave X shut", "keep X closed", "X should be shut", "do not leave X open"];
 
+/// What is said of a thing that is where it should not be: `X` is the thing, `P` the place.
+const COMPLAINTS: [&str; 12] = [
+    "who left X P?",
+    "why is X P?",
+    "what is X doing P?",
+    "somebody left X P again",
+    "I hate it when X is P",
+    "I am sick of X P",
+    "X does not belong P",
+    "X has no business P",
+    "X should not be lying P",
+    "X is P again!",
+    "do not leave X P",
+    "never put X P",
+];
+
 /// What of the goal of a sentence has a property with a value.
 fn brought_about(
     offline: &Offline,
@@ -130,4 +146,61 @@ fn what_should_be_on_is_not_switched_off() {
 fn what_should_be_closed_is_not_opened_and_the_other_way_round() {
     never_the_opposite(&OPENED, &CLOSE, ("isOpen", true));
     never_the_opposite(&OPENED, &OPEN, ("isOpen", false));
+}
+
+/// `PaperTowelRoll` -> `paper towel roll`
+fn in_words(kind: &str) -> String {
+    let mut words = String::new();
+    for letter in kind.chars() {
+        if letter.is_uppercase() && !words.is_empty() {
+            words.push(' ');
+        }
+        words.extend(letter.to_lowercase());
+    }
+    words
+}
+
+#[test]
+fn what_is_complained_of_for_where_it_is_is_not_put_there() {
+    let offline = Offline::new().expect("the built-in lexicon reads");
+    let (mut wrong, mut asked) = (String::new(), 0);
+    for scene in SCENES {
+        let world = lamma_domains::world::setup(scene, &[], None, 0).expect("the scene is built in");
+        let objects = lamma_domains::view::views(&world, world.facts());
+        let single = |kind: &str| objects.iter().filter(|object| object.kind == kind).count() == 1;
+        let named = |name: &String| objects.iter().find(|object| object.name == *name);
+        let lies = objects.iter().filter(|object| {
+            object.affordances.iter().any(|affordance| affordance == "pickupable") && single(&object.kind)
+        });
+        for (thing, place) in lies.filter_map(|object| Some((object, object.parents.iter().find_map(named)?)))
+        {
+            if ["Floor", "SinkBasin", "BathtubBasin"].contains(&place.kind.as_str()) {
+                continue;
+            }
+            let inside = place.affordances.iter().any(|affordance| affordance == "openable");
+            let at = format!("{} the {}", if inside { "in" } else { "on" }, in_words(&place.kind));
+            for said in COMPLAINTS {
+                let text = said.replace('P', &at).replace('X', &format!("the {}", in_words(&thing.kind)));
+                let answer = offline.read(&Request {
+                    instruction: text.clone(),
+                    objects: objects.clone(),
+                    robots: Vec::new(),
+                    assume: false,
+                    deadline: Duration::from_secs(5),
+                });
+                let Answer::Understood(decomposition) = answer else { continue };
+                asked += 1;
+                let goals = decomposition.subtasks.iter().flat_map(|subtask| &subtask.goal);
+                let there = goals.filter(|entry| entry.object.split('_').next() == Some(&place.kind));
+                if there.flat_map(|entry| &entry.contains).any(|content| match content {
+                    Content::Named(name) => name.split('_').next() == Some(&thing.kind),
+                    Content::With(inner) => inner.object.split('_').next() == Some(&thing.kind),
+                }) {
+                    wrong.push_str(&format!("{scene}: \"{text}\"\n"));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+    assert!(asked > 100, "only {asked} were understood");
 }

@@ -282,7 +282,9 @@ impl Interpreter<'_, '_> {
             !template.is.is_empty() && objects.iter().all(|object| is_in_state(object, &template.is))
         };
         let besides = one.filter(is_so).and_then(|_| here.find(|kind| !is_so(kind)));
-        for kind in one.into_iter().chain(besides).chain(template.one_of_each.iter().filter(|kind| scene.has(kind))) {
+        for kind in
+            one.into_iter().chain(besides).chain(template.one_of_each.iter().filter(|kind| scene.has(kind)))
+        {
             found.push(self.discourse.entity(kind, Which::Any));
         }
         found
@@ -315,7 +317,10 @@ impl Interpreter<'_, '_> {
             self.discourse.lexicon.homes(&kind).find(|home| scene.accepts(home, &kind)).map(str::to_owned)
         } else {
             // "on the sofa": there, of all the places it may go.
-            let mut takes = template.into.iter().filter(|place| scene.accepts(place, &kind));
+            // "it must not stay on the shelf": anywhere but there.
+            let denied = words.iter().any(|word| ["not", "cannot", "cant", "never"].contains(&word.as_str()));
+            let mut takes =
+                template.into.iter().filter(|place| scene.accepts(place, &kind) && !(denied && named(place)));
             takes.clone().find(named).or_else(|| takes.next()).cloned()
         };
         let carried = scene.team_has(&["PickupObject", "PutObject"]) && scene.team_lifts(&kind);

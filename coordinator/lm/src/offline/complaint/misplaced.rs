@@ -6,15 +6,53 @@ use super::{BLAMED, Complaint, EVER, LEFT};
 
 /// What says that something is somewhere, and how it lies there.
 const LIES: [&str; 27] = [
-    "is", "are", "was", "were", "s", "be", "being", "lying", "sitting", "standing", "lies", "sits", "stands",
-    "left", "all", "just", "still", "always", "doing", "lie", "loose", "about", "around", "again", "hanging",
-    "scattered", "strewn",
+    "is",
+    "are",
+    "was",
+    "were",
+    "s",
+    "be",
+    "being",
+    "lying",
+    "sitting",
+    "standing",
+    "lies",
+    "sits",
+    "stands",
+    "left",
+    "all",
+    "just",
+    "still",
+    "always",
+    "doing",
+    "lie",
+    "loose",
+    "about",
+    "around",
+    "again",
+    "hanging",
+    "scattered",
+    "strewn",
 ];
 
 /// What is thought of that.
 const DISLIKES: [&str; 16] = [
-    "hate", "hates", "stand", "annoys", "annoying", "bugs", "sick", "tired", "fed", "angry", "dislike", "dislikes",
-    "disgusting", "dont", "cross", "bothers",
+    "hate",
+    "hates",
+    "stand",
+    "annoys",
+    "annoying",
+    "bugs",
+    "sick",
+    "tired",
+    "fed",
+    "angry",
+    "dislike",
+    "dislikes",
+    "disgusting",
+    "dont",
+    "cross",
+    "bothers",
 ];
 
 /// From where to where a thing is named, and the place it should not be at.
@@ -40,21 +78,24 @@ impl Complaint<'_> {
 
     /// "somebody left food in the sink"
     fn blamed_for(&self, from: usize, to: usize) -> Option<usize> {
-        const SOMEBODY: [&str; 9] = ["they", "he", "she", "kids", "children", "lot", "youve", "theyve", "people"];
+        const SOMEBODY: [&str; 9] =
+            ["they", "he", "she", "kids", "children", "lot", "youve", "theyve", "people"];
         let blamed = |at: &usize| {
             // "what is left in the bottle"
             BLAMED.contains(&self.at(*at)) && self.at(*at) != "what" || SOMEBODY.contains(&self.at(*at))
         };
         let who = (from..to.min(from + 5)).find(blamed)?;
-        let left = (who + 1..to.min(who + 7))
-            .find(|&at| LEFT[..3].contains(&self.at(at)) || ["dumped", "forgot", "dropped"].contains(&self.at(at)))?;
+        let left = (who + 1..to.min(who + 7)).find(|&at| {
+            LEFT[..3].contains(&self.at(at)) || ["dumped", "forgot", "dropped"].contains(&self.at(at))
+        })?;
         let asks = self.has(from, left, &["if", "can", "could", "should", "want", "please", "will"]);
         (!asks).then_some(left + 1)
     }
 
     /// "why is the mug in the sink?", "what on earth is the sponge doing on the table?"
     fn asked_why(&self, from: usize, to: usize) -> Option<usize> {
-        let what = (from..to.min(from + 3)).find(|&at| ["why", "what", "whats", "how"].contains(&self.at(at)))?;
+        let what =
+            (from..to.min(from + 3)).find(|&at| ["why", "what", "whats", "how"].contains(&self.at(at)))?;
         let doing = self.has(what, to, &["doing"]);
         let why = self.at(what) == "why" || self.at(what) == "how" && self.at(what + 1) == "come";
         if !doing && !why {
@@ -70,13 +111,16 @@ impl Complaint<'_> {
         let dislikes = (from..to.min(from + 6)).find(|&at| DISLIKES.contains(&self.at(at)))?;
         let denied = self.at(dislikes) == "dont";
         if denied && !["like", "want"].contains(&self.at(dislikes + 1))
-            || self.at(dislikes) == "stand" && !self.has(from, dislikes, &["cant", "cannot", "couldnt", "not"])
+            || self.at(dislikes) == "stand"
+                && !self.has(from, dislikes, &["cant", "cannot", "couldnt", "not"])
         {
             return None;
         }
         let after = dislikes + 1 + usize::from(denied);
-        let told = (after..to.min(after + 3))
-            .find(|&at| ["when", "that", "how", "of", "with", "seeing", "having", "finding", "about"].contains(&self.at(at)));
+        let told = (after..to.min(after + 3)).find(|&at| {
+            ["when", "that", "how", "of", "with", "seeing", "having", "finding", "about"]
+                .contains(&self.at(at))
+        });
         let start = told.map_or(after, |told| told + 1);
         let there = usize::from(["there", "theres"].contains(&self.at(start)));
         Some(start + there + usize::from(["having", "seeing", "finding"].contains(&self.at(start + there))))
@@ -89,7 +133,9 @@ impl Complaint<'_> {
                 || ["has", "have"].contains(&self.at(at))
                     && self.at(at + 1) == "no"
                     && ["business", "place"].contains(&self.at(at + 2))
-                || self.at(at) == "shouldnt" && self.at(at + 1) == "be" && LIES[5..].contains(&self.at(at + 2))
+                || self.at(at) == "shouldnt"
+                    && self.at(at + 1) == "be"
+                    && LIES[5..].contains(&self.at(at + 2))
                 || self.at(at) == "not"
                     && self.at(at + 1) == "be"
                     && self.at(at.wrapping_sub(1)) == "should"
@@ -102,7 +148,8 @@ impl Complaint<'_> {
     fn is_there_again(&self, from: usize, to: usize) -> Option<usize> {
         let be = (from + 2..to.min(from + 6)).find(|&at| ["is", "are"].contains(&self.at(at)))?;
         let ever = self.has(be, to, &["again", "still", "always"]) && is_determiner(self.at(from));
-        let asks = self.has(from, to, &["if", "should", "not", "when", "while", "once", "until", "make", "sure"]);
+        let asks =
+            self.has(from, to, &["if", "should", "not", "when", "while", "once", "until", "make", "sure"]);
         (ever && !asks).then_some(from)
     }
 
@@ -115,8 +162,11 @@ impl Complaint<'_> {
         let (at, length) = (start + 1..to).find_map(|at| near(at).map(|(_, length)| (at, length)))?;
         let passed = |at: usize| {
             LIES.contains(&self.at(at))
-                || ["doesnt", "dont", "does", "do", "not", "belong", "live", "has", "have", "no", "business", "place"]
-                    .contains(&self.at(at))
+                || [
+                    "doesnt", "dont", "does", "do", "not", "belong", "live", "has", "have", "no", "business",
+                    "place",
+                ]
+                .contains(&self.at(at))
                 || ["shouldnt", "should", "really", "to", "left", "been", "down"].contains(&self.at(at))
         };
         let end = (start + 1..=at).rev().find(|&end| !passed(end - 1))?;
@@ -124,10 +174,15 @@ impl Complaint<'_> {
         if !["stuff", "things"].contains(&self.at(end - 1)) {
             self.noun_in(first, end)?;
         }
-        let until = (at + length..to).find(|&at| EVER.contains(&self.at(at)) || self.at(at) == "and").unwrap_or(to);
+        let until =
+            (at + length..to).find(|&at| EVER.contains(&self.at(at)) || self.at(at) == "and").unwrap_or(to);
         let place = self.noun_in(at + length, until)?;
         let receptacle = |kind: &String| self.scene.affords(kind, "receptacle");
-        place.kinds.iter().any(receptacle).then_some(Misplaced { thing: first..end, place: at + length..until })
+        place
+            .kinds
+            .iter()
+            .any(receptacle)
+            .then_some(Misplaced { thing: first..end, place: at + length..until })
     }
 
     /// The last noun between two words.

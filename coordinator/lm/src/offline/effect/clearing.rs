@@ -13,7 +13,16 @@ const TABLEWARE: [&str; 8] = ["Plate", "Bowl", "Cup", "Mug", "Fork", "Spoon", "K
 
 /// Where things may stand that are kept nowhere.
 pub(super) const ANYWHERE: [&str; 10] = [
-    "Shelf", "CounterTop", "Dresser", "SideTable", "Desk", "DiningTable", "CoffeeTable", "Sofa", "ArmChair", "Bed",
+    "Shelf",
+    "CounterTop",
+    "Dresser",
+    "SideTable",
+    "Desk",
+    "DiningTable",
+    "CoffeeTable",
+    "Sofa",
+    "ArmChair",
+    "Bed",
 ];
 
 impl<'a> Interpreter<'_, 'a> {

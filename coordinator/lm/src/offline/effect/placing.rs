@@ -367,8 +367,9 @@ impl<'a> Interpreter<'_, 'a> {
         let scene = self.discourse.scene;
         let left = |home: &str| {
             let of = |place: &Place| {
-                place.relation == Relation::From
-                    && matches!(&place.phrase.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| kind == home))
+                let Head::Noun(noun) = &place.phrase.head else { return false };
+                let here = noun.kinds.iter().find(|kind| scene.has(kind));
+                place.relation == Relation::From && here.is_some_and(|kind| kind == home)
             };
             from.iter().any(of)
         };

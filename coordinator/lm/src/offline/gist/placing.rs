@@ -3,6 +3,7 @@
 use super::Gist;
 use super::chunk::{Chunk, Thing, Where};
 use super::saying::{self, Last};
+use crate::offline::lexicon::Act;
 use crate::offline::syntax::Relation;
 
 impl Gist<'_> {
@@ -24,6 +25,11 @@ impl Gist<'_> {
         self.pending = None;
         if let Where::At(thing) = place {
             self.named = Some(thing.clone());
+        }
+        // "put it away from the shelf": not where it is.
+        let stored = |chunk: &Chunk| matches!(chunk, Chunk::Act(doing) if doing.act == Act::Store);
+        if relation == Relation::From && self.chunks[at.saturating_sub(3)..at].iter().any(stored) {
+            return None;
         }
         if relation == Relation::From || self.is_no_goal(at, relation, place) {
             // "the dishes in the sink": not all of them.

@@ -43,13 +43,20 @@ impl Rewriting<'_> {
     fn typed_for(&mut self, index: usize) {
         let word = self.at(index);
         if let Some((_, meant)) = TYPED_FOR.iter().find(|(typed, _)| *typed == word) {
-            let thing = is_determiner(self.at(index + 1)) || self.lexicon.noun(&[self.at(index + 1)]).is_some();
+            let thing =
+                is_determiner(self.at(index + 1)) || self.lexicon.noun(&[self.at(index + 1)]).is_some();
             if *meant != "beside" || thing {
                 self.say(index, index + 1, &[meant]);
             }
-        } else if word == "an" && self.is_order(index + 1) && !self.at(index + 1).starts_with(['a', 'e', 'i', 'o', 'u']) {
+        } else if word == "an"
+            && self.is_order(index + 1)
+            && !self.at(index + 1).starts_with(['a', 'e', 'i', 'o', 'u'])
+        {
             self.say(index, index + 1, &["and"]);
-        } else if word == "than" && index > 0 && [",", ".", "and"].contains(&self.at(index - 1)) && self.is_order(index + 1)
+        } else if word == "than"
+            && index > 0
+            && [",", ".", "and"].contains(&self.at(index - 1))
+            && self.is_order(index + 1)
         {
             self.say(index, index + 1, &["then"]);
         }
@@ -92,7 +99,8 @@ impl Rewriting<'_> {
             return false;
         }
         let full = (index + 1..index + 6).find(|&at| self.at(at) == "full");
-        let full = full.filter(|&at| at == index + 1 || self.names_only(index + 1, at) || self.at(index + 1) == "it");
+        let full = full
+            .filter(|&at| at == index + 1 || self.names_only(index + 1, at) || self.at(index + 1) == "it");
         if let Some(full) = full.filter(|&at| ["with", "of"].contains(&self.at(at + 1))) {
             self.say(full, full + 2, &["with"]);
             let it: &[&str] = if full == index + 1 { &["fill", "it"] } else { &["fill"] };
@@ -116,7 +124,8 @@ impl Rewriting<'_> {
         let held = ["hold", "put", "place"].contains(&self.at(index))
             && ["it", "them"].contains(&self.at(index + 1))
             && ["under", "below", "beneath"].contains(&self.at(index + 2));
-        let tap = is_determiner(self.at(index + 3)) && ["tap", "faucet", "spout"].contains(&self.at(index + 4));
+        let tap =
+            is_determiner(self.at(index + 3)) && ["tap", "faucet", "spout"].contains(&self.at(index + 4));
         let and = index + 5 + usize::from(self.at(index + 5) == ",");
         if !held || !tap || !["and", "then"].contains(&self.at(and)) || self.at(and + 1) != "fill" {
             return false;
@@ -129,7 +138,9 @@ impl Rewriting<'_> {
     fn waits_till_full(&mut self, index: usize) -> bool {
         let waits = self.at(index) == "wait" && ["till", "until"].contains(&self.at(index + 1));
         let is = (index + 3..index + 7).find(|&at| ["is", "gets"].contains(&self.at(at)));
-        let Some(is) = is.filter(|&is| waits && ["full", "filled"].contains(&self.at(is + 1))) else { return false };
+        let Some(is) = is.filter(|&is| waits && ["full", "filled"].contains(&self.at(is + 1))) else {
+            return false;
+        };
         let up = usize::from(self.at(is + 2) == "up");
         self.say(is, is + 2 + up, &["with", "water"]);
         self.say(index, index + 2, &["fill"]);
@@ -138,7 +149,8 @@ impl Rewriting<'_> {
 
     /// "make sure that the statue stands on the table": is there; no stand.
     fn stands_there(&mut self, index: usize) -> bool {
-        let stands = ["stands", "sits", "lies", "rests"].contains(&self.at(index)) && self.is_place(index + 1);
+        let stands =
+            ["stands", "sits", "lies", "rests"].contains(&self.at(index)) && self.is_place(index + 1);
         let start = self.sentence_start(index);
         let wished = (start..index).any(|at| ["that", "sure", "ensure"].contains(&self.at(at)));
         if stands && (wished || self.at(index) == "stands") && self.noun_before(index).is_some() {
@@ -188,17 +200,33 @@ impl Rewriting<'_> {
     /// couch": it should be there.
     fn would_be_happy(&mut self, index: usize) -> bool {
         const GOOD: [&str; 16] = [
-            "happy", "happier", "happiest", "easier", "nicer", "better", "lovely", "great", "nice", "good", "glad",
-            "wonderful", "perfect", "best", "delighted", "pleased",
+            "happy",
+            "happier",
+            "happiest",
+            "easier",
+            "nicer",
+            "better",
+            "lovely",
+            "great",
+            "nice",
+            "good",
+            "glad",
+            "wonderful",
+            "perfect",
+            "best",
+            "delighted",
+            "pleased",
         ];
-        const RESTS: [&str; 8] = ["waiting", "lying", "sitting", "standing", "ready", "laid", "resting", "simply"];
+        const RESTS: [&str; 8] =
+            ["waiting", "lying", "sitting", "standing", "ready", "laid", "resting", "simply"];
         let start = self.sentence_start(index);
         let good = (start..index).any(|at| GOOD.contains(&self.at(at)));
         if !["when", "if"].contains(&self.at(index)) || !good {
             return false;
         }
         let end = self.next_mark(index, &[",", "."]);
-        let finds = (index + 1..index + 4).find(|&at| ["finds", "find", "found", "sees"].contains(&self.at(at)));
+        let finds =
+            (index + 1..index + 4).find(|&at| ["finds", "find", "found", "sees"].contains(&self.at(at)));
         let was = (index + 2..index + 7).find(|&at| ["was", "were", "is", "are"].contains(&self.at(at)));
         let (thing, behind) = match (finds, was) {
             (Some(finds), _) => (finds + 1, (finds + 2..end).find(|&at| self.noun_before(at).is_some())),
@@ -212,7 +240,8 @@ impl Rewriting<'_> {
         }
         let passed = (behind..end)
             .take_while(|&at| {
-                RESTS.contains(&self.at(at)) || ["was", "were", "is", "are", "just", "already"].contains(&self.at(at))
+                RESTS.contains(&self.at(at))
+                    || ["was", "were", "is", "are", "just", "already"].contains(&self.at(at))
             })
             .count();
         let place = behind + passed;
