@@ -317,10 +317,7 @@ impl Interpreter<'_, '_> {
             self.discourse.lexicon.homes(&kind).find(|home| scene.accepts(home, &kind)).map(str::to_owned)
         } else {
             // "on the sofa": there, of all the places it may go.
-            // "it must not stay on the shelf": anywhere but there.
-            let denied = words.iter().any(|word| ["not", "cannot", "cant", "never"].contains(&word.as_str()));
-            let mut takes =
-                template.into.iter().filter(|place| scene.accepts(place, &kind) && !(denied && named(place)));
+            let mut takes = template.into.iter().filter(|place| scene.accepts(place, &kind));
             takes.clone().find(named).or_else(|| takes.next()).cloned()
         };
         let carried = scene.team_has(&["PickupObject", "PutObject"]) && scene.team_lifts(&kind);

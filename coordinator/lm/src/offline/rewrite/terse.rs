@@ -85,7 +85,7 @@ impl Rewriting<'_> {
     /// "laptop close, phone to desk": close it.
     fn close_behind(&mut self, index: usize) -> bool {
         let start = self.clause_start(index);
-        let verb = ["close", "shut"].contains(&self.at(index)) && self.is_mark(index + 1);
+        let verb = self.at(index) == "close" && self.is_mark(index + 1);
         if !verb || start == index || !self.names_only(start, index) {
             return false;
         }

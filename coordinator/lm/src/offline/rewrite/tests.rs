@@ -184,12 +184,12 @@ fn who_does_it_is_left_out() {
 fn places_are_told_by_what_is_there() {
     for (said, meant) in [
         ("the sofa needs the pillow", "the pillow should be in the sofa"),
-        ("put the phone where the laptop was", "put the phone beside the laptop"),
+        ("put the phone where the laptop was", "put the phone in the place of the laptop"),
         (
             "there is a ball on the desk that should be on the floor, a pen on the bed that should be in the mug",
             "a ball on the desk should be on the floor . a pen on the bed should be in the mug",
         ),
-        ("the statue joins it", "the statue should be beside it"),
+        ("the statue joins it", "the statue should go beside it"),
         ("move the box that was there to the sofa", "move the box to the sofa"),
     ] {
         assert_eq!(plain(said), meant);

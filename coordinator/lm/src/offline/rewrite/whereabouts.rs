@@ -92,8 +92,8 @@ impl Rewriting<'_> {
 
     /// "replace the egg with the tomato": the tomato goes where the egg was.
     fn replaced(&mut self, index: usize) -> bool {
-        let order =
-            ["replace", "exchange", "substitute"].contains(&self.at(index - 1)) && self.is_mark(index - 2);
+        let order = ["replace", "exchange", "substitute"].contains(&self.at(index - 1))
+            && (index == 1 || self.is_mark(index - 2));
         let end = self.next_mark(index, &[",", "."]);
         let joint = if self.at(index - 1) == "substitute" { "for" } else { "with" };
         let with = (index + 1..end).find(|&at| [joint, "by"].contains(&self.at(at)));
