@@ -8,8 +8,8 @@ use super::phrase::NounAt;
 use super::scene::Scene;
 use super::syntax::{Clause, Head, Link, Phrase, Relation, is_determiner, is_function_word, preposition};
 use opening::Opening;
-use shape::{goes_somewhere, only_pronouns, places};
-pub use shape::{is_denied, is_going};
+pub use shape::{goes_somewhere, is_denied, is_going};
+use shape::{only_pronouns, places};
 
 /// More clauses than this are not read.
 const MOST_CLAUSES: usize = 32;

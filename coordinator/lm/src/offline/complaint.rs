@@ -188,10 +188,7 @@ impl Complaint<'_> {
             let so = self.left_so(from, to).or_else(|| self.is_so(from, to));
             match so.or_else(|| self.cannot_with(from, to)) {
                 Some((verb, thing, state)) => {
-                    let mut said: Vec<Token> = verb
-                        .split(' ')
-                        .map(|word| Token { text: word.to_owned(), typed: word.to_owned() })
-                        .collect();
+                    let mut said: Vec<Token> = verb.split(' ').map(Token::said).collect();
                     said.extend_from_slice(&self.tokens[thing..state]);
                     let length = said.len();
                     self.tokens.splice(from..to, said);
@@ -205,10 +202,9 @@ impl Complaint<'_> {
     /// "who left the mug in the sink?": it is to be put away; where the part ends then.
     fn put_away(&mut self, from: usize, to: usize) -> usize {
         let Some(misplaced) = self.misplaced(from, to) else { return to };
-        let word = |word: &str| Token { text: word.to_owned(), typed: word.to_owned() };
-        let mut said = vec![word("put"), word("away")];
+        let mut said = vec![Token::said("put"), Token::said("away")];
         said.extend_from_slice(&self.tokens[misplaced.thing]);
-        said.push(word("from"));
+        said.push(Token::said("from"));
         said.extend_from_slice(&self.tokens[misplaced.place]);
         let end = from + said.len();
         self.tokens.splice(from..to, said);

@@ -45,8 +45,7 @@ impl Everyday<'_> {
     }
 
     fn say(&mut self, from: usize, to: usize, words: &[&str]) {
-        let said = words.iter().map(|word| Token { text: (*word).to_owned(), typed: (*word).to_owned() });
-        self.tokens.splice(from..to, said);
+        self.tokens.splice(from..to, words.iter().map(|word| Token::said(word)));
     }
 
     /// How many words at a place name what is closed by its lid ("the loo seat"), or a lid of something ("the lid of

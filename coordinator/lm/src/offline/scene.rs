@@ -114,6 +114,16 @@ impl<'a> Scene<'a> {
         self.words.contains(word)
     }
 
+    /// Whether things go in or on objects of a type, and it stays where it is.
+    pub fn is_furniture(&self, kind: &str) -> bool {
+        self.affords(kind, "receptacle") && !self.affords(kind, "pickupable")
+    }
+
+    /// What an object lies right in or on.
+    pub fn parents(&self, object: &'a ObjectView) -> impl Iterator<Item = &'a ObjectView> + '_ {
+        object.parents.iter().filter_map(|parent| self.named(parent))
+    }
+
     /// Whether an object lies, directly or not, in or on an object that satisfies a condition.
     pub fn lies_in(&self, object: &ObjectView, condition: &dyn Fn(&ObjectView) -> bool) -> bool {
         let mut frontier: Vec<&str> = object.parents.iter().map(String::as_str).collect();

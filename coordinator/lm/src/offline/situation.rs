@@ -244,9 +244,7 @@ impl Interpreter<'_, '_> {
         }
         let furniture = |word: &String| {
             let kinds = lexicon.noun(&[word]).map(|(noun, _)| noun.kinds.as_slice()).unwrap_or_default();
-            kinds
-                .first()
-                .filter(|kind| scene.affords(kind, "receptacle") && !scene.affords(kind, "pickupable"))
+            kinds.first().filter(|kind| scene.is_furniture(kind))
         };
         words.iter().filter_map(furniture).any(|place| {
             kind.strip_suffix("Lamp") == Some(place)

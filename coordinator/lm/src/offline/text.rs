@@ -22,6 +22,13 @@ pub struct Token {
     pub typed: String,
 }
 
+impl Token {
+    /// A word that nobody typed.
+    pub fn said(word: &str) -> Self {
+        Self { text: word.to_owned(), typed: word.to_owned() }
+    }
+}
+
 /// Splits an instruction into words and the marks that separate clauses.
 pub fn tokens(instruction: &str) -> Vec<Token> {
     let instruction = &instruction.replace("i.e.", "ie").replace("I.e.", "ie").replace("e.g.", "eg");

@@ -4,15 +4,11 @@ use super::super::lexicon::Noun;
 use super::super::syntax::{Relation, is_determiner, preposition};
 use super::{BLAMED, Complaint, EVER, LEFT};
 
-/// What says that something is somewhere, and how it lies there.
-const LIES: [&str; 27] = [
-    "is",
-    "are",
-    "was",
-    "were",
-    "s",
-    "be",
-    "being",
+/// What says that something is.
+const IS: [&str; 7] = ["is", "are", "was", "were", "s", "be", "being"];
+
+/// How something lies where it is.
+const LIES: [&str; 20] = [
     "lying",
     "sitting",
     "standing",
@@ -33,6 +29,12 @@ const LIES: [&str; 27] = [
     "hanging",
     "scattered",
     "strewn",
+];
+
+/// What denies that something belongs where it is, and how sure that is said.
+const BELONGS: [&str; 18] = [
+    "doesnt", "dont", "does", "do", "not", "belong", "live", "has", "have", "no", "business", "place",
+    "shouldnt", "should", "really", "to", "been", "down",
 ];
 
 /// What is thought of that.
@@ -133,13 +135,9 @@ impl Complaint<'_> {
                 || ["has", "have"].contains(&self.at(at))
                     && self.at(at + 1) == "no"
                     && ["business", "place"].contains(&self.at(at + 2))
-                || self.at(at) == "shouldnt"
+                || (self.at(at) == "shouldnt" || self.at(at) == "not" && self.at(at - 1) == "should")
                     && self.at(at + 1) == "be"
-                    && LIES[5..].contains(&self.at(at + 2))
-                || self.at(at) == "not"
-                    && self.at(at + 1) == "be"
-                    && self.at(at.wrapping_sub(1)) == "should"
-                    && LIES[7..].contains(&self.at(at + 2))
+                    && LIES.contains(&self.at(at + 2))
         };
         (from + 1..to).find(|&at| denied(at)).map(|_| from)
     }
@@ -161,13 +159,8 @@ impl Complaint<'_> {
         };
         let (at, length) = (start + 1..to).find_map(|at| near(at).map(|(_, length)| (at, length)))?;
         let passed = |at: usize| {
-            LIES.contains(&self.at(at))
-                || [
-                    "doesnt", "dont", "does", "do", "not", "belong", "live", "has", "have", "no", "business",
-                    "place",
-                ]
-                .contains(&self.at(at))
-                || ["shouldnt", "should", "really", "to", "left", "been", "down"].contains(&self.at(at))
+            let word = self.at(at);
+            IS.contains(&word) || LIES.contains(&word) || BELONGS.contains(&word)
         };
         let end = (start + 1..=at).rev().find(|&end| !passed(end - 1))?;
         let first = (start..end).find(|&at| !passed(at))?;

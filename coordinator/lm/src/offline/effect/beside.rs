@@ -39,8 +39,8 @@ impl<'a> Interpreter<'_, 'a> {
             reference.as_deref().filter(|_| near.under).and_then(|kind| self.discourse.lexicon.under(kind));
         let stands_on = reference.as_deref().and_then(|kind| {
             let object = scene.of_kind(kind).first()?;
-            let parents = object.parents.iter().filter_map(|parent| scene.named(parent));
-            parents
+            scene
+                .parents(object)
                 .map(|parent| parent.kind.as_str())
                 .find(|kind| *kind != "Floor" && scene.accepts(kind, &thing))
         });
@@ -81,8 +81,7 @@ impl<'a> Interpreter<'_, 'a> {
             let takes = |kind: &str| {
                 objects.iter().all(|&entity| scene.accepts(kind, self.discourse.entities[entity].kind()))
             };
-            let mut parents = object.parents.iter().filter_map(|parent| scene.named(parent));
-            let parent = parents.find(|parent| takes(&parent.kind))?;
+            let parent = scene.parents(object).find(|parent| takes(&parent.kind))?;
             Some((parent.kind.clone(), parent.name.clone()))
         });
         let Some((kind, name)) = place else {
@@ -105,11 +104,6 @@ impl<'a> Interpreter<'_, 'a> {
             return Some(self.discourse.entities[place].kind().to_owned());
         }
         let object = scene.of_kind(self.discourse.entities[entity].kind()).first()?;
-        object
-            .parents
-            .iter()
-            .filter_map(|parent| scene.named(parent))
-            .map(|parent| parent.kind.clone())
-            .next()
+        scene.parents(object).next().map(|parent| parent.kind.clone())
     }
 }

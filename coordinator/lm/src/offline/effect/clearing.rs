@@ -1,7 +1,8 @@
 //! Surfaces that are cleared: what lies on them is put where it is kept.
 
+use super::super::clause::goes_somewhere;
 use super::super::mention::{Spoken, Which};
-use super::super::syntax::{Clause, Head, Place, Relation};
+use super::super::syntax::{Clause, Head};
 use super::Interpreter;
 
 /// Orders to clear a surface.
@@ -69,17 +70,12 @@ impl<'a> Interpreter<'_, 'a> {
         let things = |surface: &str| -> Vec<(String, String)> {
             let objects = scene.kinds().flat_map(|kind| scene.of_kind(kind));
             let lies = objects.filter(|object| {
-                let parents = object.parents.iter().filter_map(|parent| scene.named(parent));
                 scene.affords(&object.kind, "pickupable")
-                    && parents.take(1).any(|parent| parent.kind == surface)
+                    && scene.parents(object).next().is_some_and(|parent| parent.kind == surface)
             });
             lies.map(|object| (object.kind.clone(), object.name.clone())).collect()
         };
-        let surface = |kind: &&String| {
-            scene.affords(kind, "receptacle")
-                && !scene.affords(kind, "pickupable")
-                && !scene.affords(kind, "openable")
-        };
+        let surface = |kind: &&String| scene.is_furniture(kind) && !scene.affords(kind, "openable");
         let mut there = noun.kinds.iter().filter(|_| said && !noun.class).filter(surface);
         there.find_map(|kind| Some((kind.clone(), things(kind))).filter(|(_, things)| !things.is_empty()))
     }
@@ -99,6 +95,5 @@ impl<'a> Interpreter<'_, 'a> {
 
 /// Whether a clause puts something somewhere.
 fn puts(clause: &Clause<'_>) -> bool {
-    let goes = |place: &Place| matches!(place.relation, Relation::In | Relation::To);
-    !clause.objects.is_empty() && !clause.negated && clause.places.iter().any(goes)
+    !clause.objects.is_empty() && !clause.negated && goes_somewhere(clause)
 }

@@ -201,9 +201,9 @@ impl<'a> Interpreter<'_, 'a> {
             .map(|place| place.phrase.clone())
             .chain(place.with.clone())
             .collect();
-        let takes = matches!(&place.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| {
-            self.discourse.scene.affords(kind, "receptacle") && !self.discourse.scene.affords(kind, "pickupable")
-        }));
+        let scene = self.discourse.scene;
+        let takes =
+            matches!(&place.head, Head::Noun(noun) if noun.kinds.iter().any(|kind| scene.is_furniture(kind)));
         (takes && !things.is_empty()).then(|| {
             let mut laid = clause.clone();
             let place = Phrase { with: Vec::new(), ..place.clone() };
@@ -319,7 +319,7 @@ impl<'a> Interpreter<'_, 'a> {
     fn sort_by_top(&self, place: &mut Place) {
         let scene = self.discourse.scene;
         let Head::Noun(noun) = &mut place.phrase.head else { return };
-        let takes = |kind: &str| scene.affords(kind, "receptacle") && !scene.affords(kind, "pickupable");
+        let takes = |kind: &str| scene.is_furniture(kind);
         let opens = |kind: &str| scene.affords(kind, "openable");
         let fits = |kind: &str| takes(kind) && opens(kind) == place.within;
         if !noun.class && (place.upon || place.within) && noun.kinds.iter().any(|kind| fits(kind)) {

@@ -26,8 +26,7 @@ impl<'a> Interpreter<'_, 'a> {
         }
         let scene = self.discourse.scene;
         let furniture = |place: &&Place| {
-            let stands =
-                |kind: &String| scene.affords(kind, "receptacle") && !scene.affords(kind, "pickupable");
+            let stands = |kind: &String| scene.is_furniture(kind);
             place.relation == Relation::In
                 && !tool(place)
                 && matches!(&place.phrase.head, Head::Noun(noun) if !noun.class && noun.kinds.iter().any(stands))

@@ -62,8 +62,7 @@ impl Remarks<'_> {
         let mut index = 0;
         while index < self.tokens.len() {
             if let Some((length, behind)) = self.wish_of_another(index) {
-                let want = |text: &str| Token { text: text.to_owned(), typed: text.to_owned() };
-                self.tokens.splice(index..index + length, [want("i"), want("want")]);
+                self.tokens.splice(index..index + length, ["i", "want"].map(Token::said));
                 index += 1;
                 debug_assert!(behind > 0, "a wish has words");
             }

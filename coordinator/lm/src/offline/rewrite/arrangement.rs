@@ -202,7 +202,7 @@ impl Rewriting<'_> {
                 || self.best_kept(index)
                 || self.see_that(index)
                 || self.taking_care(index)
-                || self.into_it_with(index)
+                || self.put_into_it_with(index)
                 || self.lowered_onto(index)
                 || self.everything_sliced(index);
             index += 1;
@@ -269,7 +269,7 @@ impl Rewriting<'_> {
     }
 
     /// "into the box with the keys and the card": put them there.
-    fn into_it_with(&mut self, index: usize) -> bool {
+    fn put_into_it_with(&mut self, index: usize) -> bool {
         let then = ["and", "then"].contains(&self.at(index.wrapping_sub(1)));
         let opens = index == 0 || self.is_mark(index - 1) || then;
         let inward = ["into", "onto"].contains(&self.at(index)) && is_determiner(self.at(index + 1));

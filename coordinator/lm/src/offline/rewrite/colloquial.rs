@@ -27,7 +27,7 @@ impl Rewriting<'_> {
             self.two_adjectives(index);
             self.gone_off(index);
             self.of_today(index);
-            self.to_the_brim(index);
+            self.filled_to_the_brim(index);
             self.hungry_for(index);
             self.why_not(index);
             self.whichever(index);
@@ -38,7 +38,7 @@ impl Rewriting<'_> {
             self.while_it_shines(index);
             self.loaded_with(index);
             self.among(index);
-            self.to_make_room(index);
+            self.room_is_made(index);
             self.left_where_it_is_found(index);
             self.plate_them(index);
             self.made_from(index);
@@ -84,7 +84,7 @@ impl Rewriting<'_> {
     }
 
     /// "fill it (right up) to the brim": fill it.
-    fn to_the_brim(&mut self, index: usize) {
+    fn filled_to_the_brim(&mut self, index: usize) {
         let brim = ["brim", "top", "rim"].contains(&self.at(index + 2)) && self.starts(index, &["to", "the"]);
         let start = self.clause_start(index);
         let pours = |at: usize| LIQUIDS.contains(&self.at(at)) || self.at(at).starts_with("fill");
@@ -261,7 +261,7 @@ impl Rewriting<'_> {
     }
 
     /// "move a roll to the counter to make room": why it is done.
-    fn to_make_room(&mut self, index: usize) {
+    fn room_is_made(&mut self, index: usize) {
         const WHY: [&[&str]; 6] = [
             &["to", "make", "room"],
             &["to", "make", "space"],
@@ -357,11 +357,10 @@ impl Rewriting<'_> {
     /// "too much junk on my desk: the phone goes …": why.
     fn too_much(&mut self, index: usize) {
         let opens = index == 0 || self.at(index - 1) == ".";
-        let much = match (self.at(index), self.at(index + 1)) {
-            ("too" | "so", "much" | "many") => true,
-            ("such" | "what", "a") => true,
-            _ => false,
-        };
+        let much = matches!(
+            (self.at(index), self.at(index + 1)),
+            ("too" | "so", "much" | "many") | ("such" | "what", "a")
+        );
         let end = self.next_mark(index, &[",", "."]);
         let colon = self.tokens.get(end).is_some_and(|token| token.typed == ":");
         if opens && much && colon {

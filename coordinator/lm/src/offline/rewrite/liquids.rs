@@ -242,4 +242,58 @@ impl Rewriting<'_> {
         }
         true
     }
+
+    /// "make it full with water", "make full of water": fill it; "make clean the spoon": clean it.
+    pub(super) fn make_full(&mut self, index: usize) -> bool {
+        if self.at(index) != "make" {
+            return false;
+        }
+        let full = (index + 1..index + 6).find(|&at| self.at(at) == "full");
+        let full = full
+            .filter(|&at| at == index + 1 || self.names_only(index + 1, at) || self.at(index + 1) == "it");
+        if let Some(full) = full.filter(|&at| ["with", "of"].contains(&self.at(at + 1))) {
+            self.say(full, full + 2, &["with"]);
+            let it: &[&str] = if full == index + 1 { &["fill", "it"] } else { &["fill"] };
+            self.say(index, index + 1, it);
+            return true;
+        }
+        if ["clean", "hot", "cold"].contains(&self.at(index + 1)) && is_determiner(self.at(index + 2)) {
+            let order = match self.at(index + 1) {
+                "clean" => "clean",
+                "hot" => "heat",
+                _ => "chill",
+            };
+            self.say(index, index + 2, &[order]);
+            return true;
+        }
+        false
+    }
+
+    /// "hold it under the tap and fill it": fill it.
+    pub(super) fn held_to_be_filled(&mut self, index: usize) -> bool {
+        let held = ["hold", "put", "place"].contains(&self.at(index))
+            && ["it", "them"].contains(&self.at(index + 1))
+            && ["under", "below", "beneath"].contains(&self.at(index + 2));
+        let tap =
+            is_determiner(self.at(index + 3)) && ["tap", "faucet", "spout"].contains(&self.at(index + 4));
+        let and = index + 5 + usize::from(self.at(index + 5) == ",");
+        if !held || !tap || !["and", "then"].contains(&self.at(and)) || self.at(and + 1) != "fill" {
+            return false;
+        }
+        self.say(index, and + 1, &[]);
+        true
+    }
+
+    /// "wait till the pot is filled up": fill the pot with water.
+    pub(super) fn waits_till_full(&mut self, index: usize) -> bool {
+        let waits = self.at(index) == "wait" && ["till", "until"].contains(&self.at(index + 1));
+        let is = (index + 3..index + 7).find(|&at| ["is", "gets"].contains(&self.at(at)));
+        let Some(is) = is.filter(|&is| waits && ["full", "filled"].contains(&self.at(is + 1))) else {
+            return false;
+        };
+        let up = usize::from(self.at(is + 2) == "up");
+        self.say(is, is + 2 + up, &["with", "water"]);
+        self.say(index, index + 2, &["fill"]);
+        true
+    }
 }

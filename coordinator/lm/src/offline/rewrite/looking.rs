@@ -69,8 +69,7 @@ impl Rewriting<'_> {
     /// Says something in place of a range.
     pub(super) fn say(&mut self, from: usize, to: usize, words: &[&str]) {
         let to = to.min(self.tokens.len());
-        let word = |word: &&str| Token { text: (*word).to_owned(), typed: (*word).to_owned() };
-        self.tokens.splice(from..to, words.iter().map(word));
+        self.tokens.splice(from..to, words.iter().map(|word| Token::said(word)));
     }
 
     /// The same with words that were put together.

@@ -57,7 +57,7 @@ impl Rewriting<'_> {
         let mut index = 0;
         while index < self.tokens.len() {
             self.heading_of_a_meal(index);
-            self.to_serve_a_meal(index);
+            self.meal_is_served(index);
             self.set_aside(index);
             index += 1;
         }
@@ -101,7 +101,7 @@ impl Rewriting<'_> {
     }
 
     /// "… to assemble a salad", "… to be served", "… and serve a salad": no more than what was done.
-    fn to_serve_a_meal(&mut self, index: usize) {
+    fn meal_is_served(&mut self, index: usize) {
         let placed = index > 3 && (0..index).any(|at| self.is_place(at)) && !self.is_mark(index - 1);
         if !placed {
             return;

@@ -260,4 +260,23 @@ impl Rewriting<'_> {
         }
         false
     }
+
+    /// "no more cartoons", "no more light burning": it is off.
+    pub(super) fn no_more(&mut self, index: usize) -> bool {
+        const SHOWN: [&str; 6] = ["cartoons", "tv", "telly", "television", "films", "shows"];
+        const LIT: [&str; 3] = ["light", "lights", "lamps"];
+        if !self.starts(index, &["no", "more"]) || !self.opens_part(index) {
+            return false;
+        }
+        let what = if SHOWN.contains(&self.at(index + 2)) {
+            "tv"
+        } else if LIT.contains(&self.at(index + 2)) {
+            "lights"
+        } else {
+            return false;
+        };
+        let burning = usize::from(["burning", "on", "shining"].contains(&self.at(index + 3)));
+        self.say(index, index + 3 + burning, &["turn", "off", "the", what]);
+        true
+    }
 }

@@ -4,6 +4,7 @@
 use super::{LONGEST_ASIDE, Rewriting, SHALL};
 use crate::offline::clause::is_going;
 use crate::offline::syntax::is_determiner;
+use crate::offline::text::POSSESSIVE;
 
 /// How the grammar knows where something was before it goes elsewhere.
 const WHERE_IT_WAS: [&str; 4] = ["in", "the", "place", "of"];
@@ -13,27 +14,9 @@ impl Rewriting<'_> {
     pub(super) fn where_things_were(&mut self) {
         let mut index = 1;
         while index < self.tokens.len() {
-            let to = usize::from(self.at(index - 1) == "to");
-            let joined = (0..index).rev().find(|&at| self.at(at) == "and" || self.is_mark(at));
-            let another = joined.is_some_and(|at| self.at(at) == "and" && self.names_only(at + 1, index));
-            let put = (to == 1 || self.noun_before(index).is_some() || is_going(self.at(index - 1)))
-                && (another || self.puts_before(index - to));
-            let being = |at: usize| {
-                ["was", "were", "stood"].contains(&self.at(at))
-                    || ["is", "are"].contains(&self.at(at)) && self.at(at + 1) == "now"
-            };
-            if self.at(index) == "where"
-                && is_determiner(self.at(index + 1))
-                && put
-                && let Some(was) = (index + 3..index + 6).find(|&at| being(at))
-                && self.noun_before(was).is_some()
-                && (self.is_mark(was + 1) || ["and", "before", "now"].contains(&self.at(was + 1)))
-            {
-                let more = usize::from(["before", "now"].contains(&self.at(was + 1)));
-                self.say(was, was + 1 + more, &[]);
-                self.say(index - to, index + 1, &WHERE_IT_WAS);
-            } else if self.place_taken(index) || self.replaced(index) {
-            } else if ["that", "which"].contains(&self.at(index))
+            let told = self.put_where_it_was(index) || self.place_taken(index) || self.replaced(index);
+            if !told
+                && ["that", "which"].contains(&self.at(index))
                 && ["was", "is", "were", "are", "stood"].contains(&self.at(index + 1))
                 && self.at(index + 2) == "there"
                 && self.noun_before(index).is_some()
@@ -45,10 +28,36 @@ impl Rewriting<'_> {
         }
     }
 
+    /// "put the phone where the laptop was", "and the mug where the egg was"
+    fn put_where_it_was(&mut self, index: usize) -> bool {
+        if self.at(index) != "where" || !is_determiner(self.at(index + 1)) {
+            return false;
+        }
+        let to = usize::from(self.at(index - 1) == "to");
+        let joined = (0..index).rev().find(|&at| self.at(at) == "and" || self.is_mark(at));
+        let another = joined.is_some_and(|at| self.at(at) == "and" && self.names_only(at + 1, index));
+        let put = (to == 1 || self.noun_before(index).is_some() || is_going(self.at(index - 1)))
+            && (another || self.puts_before(index - to));
+        let being = |at: usize| {
+            ["was", "were", "stood"].contains(&self.at(at))
+                || ["is", "are"].contains(&self.at(at)) && self.at(at + 1) == "now"
+        };
+        let was = (index + 3..index + 6).find(|&at| being(at)).filter(|&was| {
+            self.noun_before(was).is_some()
+                && (self.is_mark(was + 1) || ["and", "before", "now"].contains(&self.at(was + 1)))
+        });
+        let Some(was) = was.filter(|_| put) else { return false };
+        let more = usize::from(["before", "now"].contains(&self.at(was + 1)));
+        self.say(was, was + 1 + more, &[]);
+        self.say(index - to, index + 1, &WHERE_IT_WAS);
+        true
+    }
+
     /// "the bread takes its place", "in the tomato's place": it goes where that was.
     fn place_taken(&mut self, index: usize) -> bool {
         let taken = ["take", "takes", "taking"].contains(&self.at(index));
-        if !taken && !(self.at(index) == "in" && self.noun_before(index).is_some()) {
+        let inward = self.at(index) == "in" && self.noun_before(index).is_some();
+        if !taken && !inward {
             return false;
         }
         let of = |at: usize| ["the", "its", "their"].contains(&self.at(at)) && self.at(at + 1) == "place";
@@ -61,8 +70,8 @@ impl Rewriting<'_> {
             let it = if self.at(index + 1) == "its" { "it" } else { "them" };
             (index + 3, vec![it.to_owned()])
         } else {
-            let place = (index + 2..index + 6)
-                .find(|&at| self.at(at) == "place" && self.at(at - 1) == crate::offline::text::POSSESSIVE);
+            let place =
+                (index + 2..index + 6).find(|&at| self.at(at) == "place" && self.at(at - 1) == POSSESSIVE);
             let Some(place) = place.filter(|_| is_determiner(self.at(index + 1))) else { return false };
             (place + 1, self.words(index + 1..place - 1))
         };

@@ -199,4 +199,63 @@ impl Rewriting<'_> {
             index += 1;
         }
     }
+
+    /// "Dad is happiest when he finds his paper waiting on the sofa", "life would be easier if the remote was lying on the
+    /// couch": it should be there.
+    pub(super) fn would_be_happy(&mut self, index: usize) -> bool {
+        const GOOD: [&str; 16] = [
+            "happy",
+            "happier",
+            "happiest",
+            "easier",
+            "nicer",
+            "better",
+            "lovely",
+            "great",
+            "nice",
+            "good",
+            "glad",
+            "wonderful",
+            "perfect",
+            "best",
+            "delighted",
+            "pleased",
+        ];
+        const RESTS: [&str; 8] =
+            ["waiting", "lying", "sitting", "standing", "ready", "laid", "resting", "simply"];
+        if !["when", "if"].contains(&self.at(index)) {
+            return false;
+        }
+        let start = self.sentence_start(index);
+        if !(start..index).any(|at| GOOD.contains(&self.at(at))) {
+            return false;
+        }
+        let end = self.next_mark(index, &[",", "."]);
+        let finds =
+            (index + 1..index + 4).find(|&at| ["finds", "find", "found", "sees"].contains(&self.at(at)));
+        let was = (index + 2..index + 7).find(|&at| ["was", "were", "is", "are"].contains(&self.at(at)));
+        let (thing, behind) = match (finds, was) {
+            (Some(finds), _) => (finds + 1, (finds + 2..end).find(|&at| self.noun_before(at).is_some())),
+            (None, Some(was)) if self.noun_before(was).is_some() => (index + 1, Some(was)),
+            _ => return false,
+        };
+        let Some(behind) = behind else { return false };
+        // "… and the pan was on the stove": more than one wish.
+        if (behind + 1..end).any(|at| self.at(at) == "and") {
+            return false;
+        }
+        let passed = (behind..end)
+            .take_while(|&at| {
+                RESTS.contains(&self.at(at))
+                    || ["was", "were", "is", "are", "just", "already"].contains(&self.at(at))
+            })
+            .count();
+        let place = behind + passed;
+        if !self.is_place(place) || !self.names_only(thing, behind) {
+            return false;
+        }
+        self.say(behind, place, &["should", "be"]);
+        self.say(start, thing, &[]);
+        true
+    }
 }
